@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "resect/simulation.hpp"
+
+namespace resect {
+
+/// One blade's way: it exists from its first key to its last, and its ends move linearly between keys.
+struct BladeKey {
+    double time = 0; // s, from the end of settle
+    Edge edge = {};
+};
+
+struct Settle {
+    double residual = 1e-4;
+    double at_most = 30; // simulated s
+};
+
+struct Scene {
+    std::string name = {};
+    Setup setup = {};
+    bool settle = false;
+    Settle settling = {};
+    std::vector<std::vector<BladeKey>> blades = {}; // [blade][key], by time
+    double duration = 1;                            // s
+    double output_every = 1.0 / 60;                 // s
+};
+
+/// Reads a scene (JSON, scenes/scene.schema.json). `overrides` are `key=value` with dots for nesting
+/// ("tissue.damping=1"); a value is JSON, or else a string. Paths in it are relative to its folder.
+Result<Scene> load_scene(const std::string& path, std::span<const std::string> overrides = {});
+
+/// The boundary of the material by the ending of `path`: .obj, .stl, .ply, .vtp.
+Result<void> write_surface(const std::string& path, const Surface& surface);
+/// The same at rest.
+Result<void> write_rest_surface(const std::string& path, const Surface& surface);
+/// The element copies with their fields, as .vtu (points at rest, docs/manual.md lists the arrays).
+Result<void> write_mesh(const std::string& path, const Simulation& simulation);
+/// A body's elements, as .vtu, .vtk or .msh.
+Result<void> write_body(const std::string& path, const Body& body);
+
+/// What `resect info` prints.
+struct MeshInfo {
+    Index nodes = 0, tets = 0, components = 0, boundary_triangles = 0;
+    Box bounds = {};
+    double volume = 0;                            // m^3
+    double volume_min = 0, volume_max = 0;        // of an element
+    double dihedral_min = 0, dihedral_max = 0;    // degrees
+    double altitude_min = 0, altitude_median = 0; // m
+    double fraction_min = 1;                      // least material share of an element
+    Index elements_cut = 0;                       // elements with a share below one
+    double time_step_bound = 0;                   // s, at rest, for the material given
+};
+MeshInfo describe(const Body& body, const Material& material = {});
+
+} // namespace resect

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "resect/body.hpp"
+
+namespace resect {
+
+enum class Status { ok, not_settled, diverged };
+
+/// Sums since the advance(), or the cut(), began.
+struct CutReport {
+    Index elements_cut = 0; // elements that have more than one copy now and had one before
+    Index copies_added = 0, nodes_added = 0;
+    Index pieces = 0;  // components of the material, now
+    Index refused = 0; // increments in which a blade passed without cutting
+    double area = 0;   // new sheet, one side, m^2
+    std::string reason = {};
+    Vec3 where = {}; // of the last refusal
+    /// Microseconds by stage: find crossings, bisect edges, tear faces, derive copies and nodes, copy the
+    /// precomputed quantities, update the surface's topology.
+    struct {
+        double detect = 0, bisect = 0, tear = 0, derive = 0, quantities = 0, surface = 0;
+    } us = {};
+};
+
+struct StepReport {
+    Status status = Status::ok;
+    std::int64_t steps = 0;
+    Index element = -1;      // that diverged: row of Body::elements.tets
+    std::string reason = {}; // empty while all is well
+    CutReport cut = {};
+};
+
+/// A connected component of the material.
+struct Piece {
+    Index id = 0;      // kept while the piece exists, never reused
+    double volume = 0; // m^3, at rest
+    double mass = 0;   // kg
+    Vec3 centre = {};  // of volume, now
+    bool held = false; // some of it is fixed
+};
+
+/// J. Elastic is that of the law without viscosity; gravity is zero at rest; damped is what both kinds of
+/// damping and settling have taken.
+struct Energies {
+    double kinetic = 0, elastic = 0, gravity = 0, damped = 0;
+};
+
+struct TimeStep {
+    double used = 0;       // s
+    double bound = 0;      // at rest: no cut lowers it
+    double live_bound = 0; // at the deformation of the last check
+};
+
+/// The deformation that checks have met since creation.
+struct Strain {
+    double stretch_min = 1, stretch_max = 1;
+    Index elements_beyond_range = 0; // most at any check: where the law is continued (docs/method.md)
+    Index elements_inverted = 0;     // at the last check
+};
+
+struct Range {
+    Index begin = 0, end = 0;
+};
+
+/// The boundary of the material, closed and oriented outwards. Edges may carry four triangles where a crack
+/// pinches.
+struct Surface {
+    std::span<const Vec3f> position = {}, normal = {}, rest = {}; // [vertex]
+    std::span<const std::array<Index, 3>> triangle = {};          // rows of position
+    std::span<const Index> face = {};  // [triangle] 0 outer, +-k the sides of stroke k
+    std::span<const Index> piece = {}; // [triangle] Piece::id
+    std::span<const Range> dirty = {}; // triangles changed since the revision asked for
+    std::uint64_t revision = 0;        // of the topology
+};
+
+/// Simulation nodes.
+struct Nodes {
+    std::span<const Vec3f> rest = {}, displacement = {}, velocity = {}; // m, m/s
+    std::span<const float> mass = {};                                   // kg
+    std::span<const std::uint8_t> fixed = {};                           // 1: held or prescribed
+    std::span<const Index> reference = {};                              // row of Body::elements.nodes
+};
+
+/// Element copies.
+struct Copies {
+    std::span<const std::array<Index, 4>> node = {}; // rows of Nodes
+    std::span<const Index> element = {};             // row of Body::elements.tets
+    std::span<const Index> piece = {};               // Piece::id
+    std::span<const float> fraction = {};            // of the element's volume that is this copy's material
+};
+
+} // namespace resect

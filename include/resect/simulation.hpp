@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "resect/commands.hpp"
+#include "resect/reports.hpp"
+#include "resect/setup.hpp"
+
+namespace resect {
+
+/// A body that moves and is cut. Move-only; one thread drives it; views live until its next non-const call.
+class Simulation {
+public:
+    static Result<Simulation> create(Setup setup);
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+    ~Simulation();
+
+    /// Refused whole, or recorded and in force from the next step.
+    Result<void> apply(const Command& command);
+    /// Steps over `seconds` (rounded to whole steps, the remainder is carried over), sweeping blades on their
+    /// way. Stops early, at the last finite state, if the run diverges.
+    StepReport advance(double seconds);
+    /// Steps until the out-of-balance force on the free nodes of held pieces stays below `residual` of the
+    /// applied force for 50 steps, for `at_most` simulated seconds; the clock then starts at zero again.
+    StepReport settle(double residual = 1e-4, double at_most = 30);
+    /// Places a blade, sweeps it while the tissue is held still, and lifts it.
+    Result<CutReport> cut(Edge from, Edge to);
+
+    /// Positions and normals of now; triangles with what changed since `since_revision`.
+    Surface surface(std::uint64_t since_revision = 0);
+    Nodes nodes() const;
+    Copies copies() const;
+    /// Today's material over the elements: export, or a start for other methods.
+    Body material() const;
+    std::vector<double> von_mises() const; // [copy] Cauchy, Pa
+    std::span<const Piece> pieces();
+    std::span<const Recorded> record() const;
+    Energies energies() const;
+    TimeStep time_step() const;
+    Strain strain() const;
+    double time() const;        // s
+    std::int64_t steps() const; // since creation
+    /// Of displacements, velocities, copies, material and step number; the same for any number of threads.
+    std::uint64_t hash() const;
+
+private:
+    struct Impl;
+    explicit Simulation(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace resect

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "resect/setup.hpp"
+
+#include "base/vec.hpp"
+#include "mesh/tet.hpp"
+
+namespace resect {
+
+inline constexpr Index lanes = 16;
+
+/// The precomputed quantities of 16 element copies; copy c is lane c % 16 of block c / 16. All zero: no copy.
+struct alignas(64) ElementBlock {
+    Index node[4][lanes];         // rows of NodeArrays
+    float gradient[3][3][lanes];  // 1/m, rest shape derivatives of corners 1, 2, 3 [corner - 1][axis]
+    float volume[lanes];          // m^3, weight times rest volume
+    float mu[lanes], bulk[lanes]; // Pa
+    float viscous_time[lanes];    // s
+};
+
+/// What element_forces leaves for node_update: the nodal forces of 16 copies, N.
+struct alignas(64) ForceBlock {
+    float force[4][3][lanes];
+};
+
+/// The element copies as the step sees them.
+struct Elements {
+    Index count = 0;
+    std::vector<ElementBlock> blocks;
+    std::vector<ForceBlock> forces; // scratch of a step
+    /// Corners by node: slot 4 * copy + corner of a node's first corner, and of the next after each; -1 ends.
+    /// Ascending, so that sums do not depend on the history of cuts.
+    std::vector<Index> first_slot; // [node]
+    std::vector<Index> next_slot;  // [4 * copy + corner]
+};
+
+/// Rest data of an element, in double precision; never changes (paper III.C, pre-computation 1).
+struct RestElement {
+    std::array<Vec3, 4> gradient; // 1/m, of the four shape functions
+    double volume = 0;            // m^3
+};
+
+std::vector<RestElement> build_rest(const TetMesh& mesh);
+
+/// Closed-form lower bound of the critical time step at rest, s: 1 / (c_p sqrt(sum 1 / h_i^2)).
+double rest_step_bound(const RestElement& rest, const Material& material);
+
+/// Appends a copy with everything precomputed for its element.
+void append_copy(Elements& elements, const RestElement& rest, const Material& material, double viscous_time,
+                 double weight, const Tet& nodes);
+/// Appends a copy of a copy: memory is copied, nothing is computed (the paper's method 1).
+void append_copy_of(Elements& elements, Index parent);
+/// `volume` is the rest volume of the whole element.
+void set_weight(Elements& elements, Index copy, double weight, double volume);
+/// Sets one corner's node without touching the lists by node.
+void set_corner(Elements& elements, Index copy, Index corner, Index node);
+Tet corners(const Elements& elements, Index copy);
+
+/// Builds the lists by node from scratch.
+void link_corners(Elements& elements, Index node_count);
+/// Puts the listed corners (slots) into the lists of the nodes that they have now; `nodes` are all nodes that
+/// such a corner had or has.
+void relink_corners(Elements& elements, std::span<const Index> nodes, Index node_count);
+
+} // namespace resect

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "resect/reports.hpp"
+
+#include "base/vec.hpp"
+#include "fem/elements.hpp"
+
+namespace resect {
+
+/// State and constants of the simulation nodes, [node]. Velocity is that of half a step before.
+struct NodeArrays {
+    std::vector<Vec3f> rest, displacement, velocity; // m, m, m/s
+    std::vector<Vec3f> next_displacement,
+        next_velocity;                     // written by node_update; swapped in once found sound
+    std::vector<Vec3f> load;               // N, without gravity
+    std::vector<float> mass, inverse_mass; // kg, 1/kg; inverse 0: held or prescribed
+};
+
+struct StepConstants {
+    float time_step = 0; // s
+    float damping = 0;   // alpha, 1/s
+    Vec3f gravity = {};  // m/s^2
+};
+
+/// Sums over a range of nodes, in node order.
+struct StepSums {
+    double internal_work = 0; // J, that the internal forces took from the motion (elastic and viscous)
+    double damping_work = 0;  // J, that mass-proportional damping took
+    double kinetic = 0;       // J, at the half step
+    float speed_squared = 0;  // largest; NaN or infinite if anything is not finite
+};
+
+/// Deformation gradient, second Piola-Kirchhoff stress and nodal forces of the copies in blocks [begin, end)
+/// (paper III.A, equations 2 to 5).
+void element_forces(Elements& elements, const NodeArrays& nodes, Range blocks);
+
+/// Net forces and central differences for nodes [begin, end): paper III.C, time stepping 2. Reads
+/// displacement and velocity, writes next_displacement and next_velocity.
+StepSums node_update(const Elements& elements, NodeArrays& nodes, const StepConstants& constants,
+                     Range range);
+
+/// Sums of squares over the free nodes of `range`, N^2, from the forces that element_forces left.
+struct Residual {
+    double out_of_balance = 0; // internal and applied forces together
+    double applied = 0;        // gravity and loads
+};
+Residual out_of_balance(const Elements& elements, const NodeArrays& nodes, const StepConstants& constants,
+                        Range range);
+
+/// Deformation of the copies, looked at every few steps.
+struct StrainCheck {
+    float stretch_min = 1, stretch_max = 1;
+    Index beyond_range = 0, inverted = 0;
+    Index worst_copy = -1; // smallest live bound
+    double live_bound = 0; // s
+};
+StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std::span<const float> density);
+
+double elastic_energy(const Elements& elements, const NodeArrays& nodes);               // J
+double von_mises_stress(const Elements& elements, const NodeArrays& nodes, Index copy); // Pa, Cauchy
+
+} // namespace resect
