@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+#include "resect/body.hpp"
+
+namespace resect {
+
+// g++ 12 does not see that a Result without a value holds an Error (std::get_if may return null).
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wnull-dereference"
+
+/// What was refused, in its own words; empty if it was not.
+template <class T>
+std::string refusal_of(const Result<T>& result) {
+    return result ? std::string{} : result.error().message;
+}
+
+/// The body that was to be made; a refusal ends the tests with its line.
+inline Body made(Result<Body> result) {
+    if (!result) {
+        std::fprintf(stderr, "a body that a test needs was refused: %s\n", result.error().message.c_str());
+        std::abort();
+    }
+    return std::move(*result);
+}
+
+#pragma GCC diagnostic pop
+
+} // namespace resect
