@@ -49,9 +49,16 @@ std::vector<RestElement> build_rest(const TetMesh& mesh);
 /// Closed-form lower bound of the critical time step at rest, s: 1 / (c_p sqrt(sum 1 / h_i^2)).
 double rest_step_bound(const RestElement& rest, const Material& material);
 
+/// What a copy weighs, how it is damped and where it hangs.
+struct CopyOptions {
+    double viscous_time = 0; // s
+    double weight = 1;
+    Tet nodes = {}; // rows of NodeArrays
+};
+
 /// Appends a copy with everything precomputed for its element.
-void append_copy(Elements& elements, const RestElement& rest, const Material& material, double viscous_time,
-                 double weight, const Tet& nodes);
+void append_copy(Elements& elements, const RestElement& rest, const Material& material,
+                 const CopyOptions& options);
 /// Appends a copy of a copy: memory is copied, nothing is computed (the paper's method 1).
 void append_copy_of(Elements& elements, Index parent);
 /// `volume` is the rest volume of the whole element.
@@ -62,8 +69,8 @@ Tet corners(const Elements& elements, Index copy);
 
 /// Builds the lists by node from scratch.
 void link_corners(Elements& elements, Index node_count);
-/// Puts the listed corners (slots) into the lists of the nodes that they have now; `nodes` are all nodes that
-/// such a corner had or has.
+/// Mends the lists by node after set_corner and after copies were appended. `nodes` are all nodes that a
+/// corner left or came to, corners of new copies included; `node_count` is that of now.
 void relink_corners(Elements& elements, std::span<const Index> nodes, Index node_count);
 
 } // namespace resect

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "resect/reports.hpp"
@@ -25,11 +27,14 @@ struct StepConstants {
     Vec3f gravity = {};  // m/s^2
 };
 
-/// Sums over a range of nodes, in node order.
+/// Sums over a range of nodes, in node order. Works are over the step from half a step before to half a step
+/// after, at the mean of both velocities; for free nodes the change of `kinetic` is then applied_work -
+/// internal_work - damping_work to rounding, whatever the step.
 struct StepSums {
-    double internal_work = 0; // J, that the internal forces took from the motion (elastic and viscous)
+    double internal_work = 0; // J, that the internal forces took (elastic and viscous), held nodes included
     double damping_work = 0;  // J, that mass-proportional damping took
-    double kinetic = 0;       // J, at the half step
+    double applied_work = 0;  // J, that gravity and loads gave to free nodes
+    double kinetic = 0;       // J, at the half step after
     float speed_squared = 0;  // largest; NaN or infinite if anything is not finite
 };
 
@@ -52,12 +57,16 @@ Residual out_of_balance(const Elements& elements, const NodeArrays& nodes, const
 
 /// Deformation of the copies, looked at every few steps.
 struct StrainCheck {
-    float stretch_min = 1, stretch_max = 1;
-    Index beyond_range = 0, inverted = 0;
-    Index worst_copy = -1; // smallest live bound
-    double live_bound = 0; // s
+    double stretch_min = 1, stretch_max = 1;
+    Index beyond_range = 0, inverted = 0;                        // J < continued_below, J <= 0
+    Index worst_copy = -1;                                       // smallest live bound
+    double live_bound = std::numeric_limits<double>::infinity(); // s
 };
-StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std::span<const float> density);
+/// Of copies [begin, end); `density` is by copy, kg/m^3. Viscosity does not count.
+StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std::span<const float> density,
+                         Range copies);
+/// Of both ranges; the earlier one's copy stays where bounds are equal.
+StrainCheck merge(const StrainCheck& a, const StrainCheck& b);
 
 double elastic_energy(const Elements& elements, const NodeArrays& nodes);               // J
 double von_mises_stress(const Elements& elements, const NodeArrays& nodes, Index copy); // Pa, Cauchy
