@@ -90,9 +90,12 @@ Coefficients<T> law_coefficients(T J_minus_1, T I1_minus_3, T mu, T bulk) {
     return {mu * (trusted ? phi : below.value), mu * (trusted ? rest : below_rest) + bulk * J_minus_1};
 }
 
-/// J per m^3.
-inline double energy_density(double J, double I1, const Moduli& m) {
-    return m.mu / 2 * (isochoric(J).value * I1 - 3) + m.bulk / 2 * (J - 1) * (J - 1);
+/// W, J per m^3; phi I1 - 3 is formed from small differences as above.
+inline double energy_density(double J_minus_1, double I1_minus_3, const Moduli& m) {
+    const double J = 1 + J_minus_1;
+    const double phi_minus_1 = J < continued_below ? continued(J).value - 1 //
+                                                   : std::expm1(std::log1p(J_minus_1) * (-2.0 / 3));
+    return m.mu / 2 * (I1_minus_3 + phi_minus_1 * (3 + I1_minus_3)) + m.bulk / 2 * J_minus_1 * J_minus_1;
 }
 
 } // namespace resect

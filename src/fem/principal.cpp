@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fem/principal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace resect {
+namespace {
+
+double determinant(const Symmetric& A) {
+    const auto& [d, o] = A;
+    return d[0] * (d[1] * d[2] - o[0] * o[0]) - o[2] * (o[2] * d[2] - o[0] * o[1]) +
+           o[1] * (o[2] * o[0] - d[1] * o[1]);
+}
+
+Symmetric right_cauchy_green_minus_1(const Matrix3<double>& H) {
+    const auto entry = [&](int i, int j) {
+        return H.at[i][j] + H.at[j][i] + H.at[0][i] * H.at[0][j] + H.at[1][i] * H.at[1][j] +
+               H.at[2][i] * H.at[2][j];
+    };
+    return {{entry(0, 0), entry(1, 1), entry(2, 2)}, {entry(1, 2), entry(0, 2), entry(0, 1)}};
+}
+
+} // namespace
+
+// The trigonometric solution of the characteristic cubic of A, shifted and scaled.
+Vec3 eigenvalues(const Symmetric& A) {
+    const auto& [d, o] = A;
+    const double mean = (d[0] + d[1] + d[2]) / 3;
+    const Vec3 shifted = d - Vec3{mean, mean, mean};
+    const double scale = std::sqrt((dot(shifted, shifted) + 2 * dot(o, o)) / 6);
+    if (!(scale > 0)) { return {mean, mean, mean}; }
+    const Symmetric unit = {(1 / scale) * shifted, (1 / scale) * o};
+    const double angle = std::acos(std::clamp(determinant(unit) / 2, -1.0, 1.0)) / 3;
+    const double first = 2 * std::cos(angle);
+    const double last = 2 * std::cos(angle + 2 * std::numbers::pi / 3);
+    return {mean + scale * first, mean - scale * (first + last), mean + scale * last};
+}
+
+Stretches principal_stretches(const Matrix3<double>& H) {
+    const Vec3 squares_minus_1 = eigenvalues(right_cauchy_green_minus_1(H));
+    const double J = 1 + invariants(H, cofactors(H)).J_minus_1;
+    const double first = std::sqrt(std::max(0.0, 1 + squares_minus_1[0]));
+    const double second = std::sqrt(std::max(0.0, 1 + squares_minus_1[1]));
+    // J knows a small third stretch better than C does, and its sign.
+    const double area = first * second;
+    const double third = area > 0 ? std::clamp(J / area, -second, second) : 0;
+    return {J, {first, second, third}};
+}
+
+// In principal axes F = diag(l), n = cof F = diag(dJ/dl_i), and W is a function of l. The tangent is then the
+// Hessian of W on the diagonal of H, and on each pair (H_ij, H_ji) it has the eigenvalues
+// (W_i +- W_j) / (l_i +- l_j) = mu phi +- b l_k. Any share of c n (x) n may be split off before the largest
+// eigenvalue of what remains is taken; the share below leaves 2 mu at rest, where the bound is K - 2/3 mu and
+// 2 mu, the exact split of the linear law. It is what is left of n : dP/dF : n after the part along n of each
+// term (2 mu phi' 3 J / |n|^2 and 3 b J |l|^2 / |n|^4).
+TangentBound bound_tangent(const Stretches& stretches, const Moduli& m) {
+    const Vec3& l = stretches.value;
+    const double J = stretches.J;
+    const Isochoric<double> phi = isochoric(J);
+    const double I1 = dot(l, l);
+    const double a = m.mu * phi.value;
+    const double b = m.mu / 2 * phi.slope * I1 + m.bulk * (J - 1);
+    const double c = m.mu / 2 * phi.curvature * I1 + m.bulk;
+    const double s = m.mu * phi.slope;
+    const Vec3 n = {l[1] * l[2], l[0] * l[2], l[0] * l[1]};
+    const double n2 = dot(n, n);
+    const double share = n2 > 0 ? std::max(0.0, c + 6 * s * J / n2 + 3 * b * J * I1 / (n2 * n2)) : 0.0;
+    const double left = c - share;
+    const auto on = [&](std::size_t i) { return a + 2 * s * l[i] * n[i] + left * n[i] * n[i]; };
+    const auto off = [&](std::size_t i, std::size_t j, std::size_t k) {
+        return s * (l[i] * n[j] + l[j] * n[i]) + left * n[i] * n[j] + b * l[k];
+    };
+    const Symmetric hessian = {{on(0), on(1), on(2)}, {off(1, 2, 0), off(0, 2, 1), off(0, 1, 2)}};
+    const double pairs = a + std::abs(b) * std::max(l[0], std::abs(l[2]));
+    return {share, std::max(eigenvalues(hessian)[0], pairs)};
+}
+
+} // namespace resect

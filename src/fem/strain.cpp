@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "base/index.hpp"
+#include "fem/principal.hpp"
+#include "fem/step.hpp"
+
+namespace resect {
+namespace {
+
+/// A copy in double precision.
+struct CopyState {
+    Matrix3<double> H;
+    double gradient[3][3]; // 1/m, of corners 1 to 3
+    double volume;         // m^3, weighted
+    Moduli moduli;
+};
+
+CopyState state_of(const Elements& elements, const NodeArrays& nodes, Index copy) {
+    const ElementBlock& block = elements.blocks[row(copy / lanes)];
+    const Index lane = copy % lanes;
+    const Vec3 base = to_double(nodes.displacement[row(block.node[0][lane])]);
+    CopyState state;
+    double relative[3][3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 u = to_double(nodes.displacement[row(block.node[k + 1][lane])]) - base;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            relative[k][axis] = u[axis];
+            state.gradient[k][axis] = double(block.gradient[k][axis][lane]);
+        }
+    }
+    state.H = displacement_gradient(relative, state.gradient);
+    state.volume = double(block.volume[lane]);
+    state.moduli = {double(block.mu[lane]), double(block.bulk[lane])};
+    return state;
+}
+
+Matrix3<double> cofactors_of_gradient(const Matrix3<double>& H) {
+    Matrix3<double> F = H;
+    for (int i = 0; i < 3; ++i) {
+        F.at[i][i] += 1;
+    }
+    return cofactors(F);
+}
+
+/// sum_i |A grad N_i|^2 over the four corners, 1/m^2.
+double sum_of_squares(const Matrix3<double>& A, const double (&gradient)[3][3]) {
+    double sum = 0;
+    Vec3 first = {};
+    for (const auto& g : gradient) {
+        const Vec3 image = {A.at[0][0] * g[0] + A.at[0][1] * g[1] + A.at[0][2] * g[2],
+                            A.at[1][0] * g[0] + A.at[1][1] * g[1] + A.at[1][2] * g[2],
+                            A.at[2][0] * g[0] + A.at[2][1] * g[1] + A.at[2][2] * g[2]};
+        sum += dot(image, image);
+        first += image;
+    }
+    return sum + dot(first, first);
+}
+
+/// Lower bound of the critical step of an element that is held by nothing, s. With H = sum_i u_i (x) grad N_i
+/// both terms of the tangent's bound are at most sums of squares times |u|^2:
+///     (cof F : H)^2 <= sum |cof F grad N_i|^2 |u|^2,   |H|^2 <= sum |grad N_i|^2 |u|^2,
+/// so with nodal masses rho V / 4 the largest squared frequency is at most 4 / rho times their sum.
+double live_bound(const CopyState& state, const Stretches& stretches, double density) {
+    static constexpr Matrix3<double> identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const TangentBound tangent = bound_tangent(stretches, state.moduli);
+    const double stiffness =
+        tangent.volumetric * sum_of_squares(cofactors_of_gradient(state.H), state.gradient) +
+        tangent.remainder * sum_of_squares(identity, state.gradient);
+    return std::sqrt(density / stiffness);
+}
+
+} // namespace
+
+StrainCheck merge(const StrainCheck& a, const StrainCheck& b) {
+    StrainCheck both = b.live_bound < a.live_bound ? b : a;
+    both.stretch_min = std::min(a.stretch_min, b.stretch_min);
+    both.stretch_max = std::max(a.stretch_max, b.stretch_max);
+    both.beyond_range = a.beyond_range + b.beyond_range;
+    both.inverted = a.inverted + b.inverted;
+    return both;
+}
+
+StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std::span<const float> density,
+                         Range copies) {
+    StrainCheck check;
+    for (Index copy = copies.begin; copy < copies.end; ++copy) {
+        const CopyState state = state_of(elements, nodes, copy);
+        const Stretches now = principal_stretches(state.H);
+        check = merge(check, {now.value[2], now.value[0], now.J < continued_below ? 1 : 0, now.J <= 0 ? 1 : 0,
+                              copy, live_bound(state, now, double(density[row(copy)]))});
+    }
+    return check;
+}
+
+double elastic_energy(const Elements& elements, const NodeArrays& nodes) {
+    double energy = 0;
+    for (Index copy = 0; copy < elements.count; ++copy) {
+        const CopyState state = state_of(elements, nodes, copy);
+        const Invariants<double> now = invariants(state.H, cofactors(state.H));
+        energy += state.volume * energy_density(now.J_minus_1, now.I1_minus_3, state.moduli);
+    }
+    return energy;
+}
+
+double von_mises_stress(const Elements& elements, const NodeArrays& nodes, Index copy) {
+    const CopyState state = state_of(elements, nodes, copy);
+    const Stretches now = principal_stretches(state.H);
+    // Only mu phi F of P is not a pressure: the deviator of P F^T / J is that of mu phi / J F F^T. A copy
+    // crushed below a thousandth of its volume counts as that thousandth.
+    const double scale = state.moduli.mu * isochoric(now.J).value / std::max(std::abs(now.J), 1e-3);
+    const Vec3 s = {now.value[0] * now.value[0], now.value[1] * now.value[1], now.value[2] * now.value[2]};
+    const Vec3 difference = {s[0] - s[1], s[1] - s[2], s[2] - s[0]};
+    return scale * std::sqrt(dot(difference, difference) / 2);
+}
+
+} // namespace resect

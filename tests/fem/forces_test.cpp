@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <doctest/doctest.h>
+#include <random>
+
+#include "body.hpp"
+
+using namespace resect;
+
+namespace {
+
+TestBody make_block(double viscous_time = 0) {
+    return make_test_body(kuhn_block({0.03, 0.04, 0.05}, {3, 4, 5}), Material{}, viscous_time);
+}
+
+void shake(TestBody& body, double size, unsigned seed) {
+    std::mt19937 engine(seed);
+    std::normal_distribution<double> normal(0, size);
+    for (Vec3f& u : body.nodes.displacement) {
+        u = to_float({normal(engine), normal(engine), normal(engine)});
+    }
+    for (Vec3f& v : body.nodes.velocity) {
+        v = to_float({normal(engine), normal(engine), normal(engine)});
+    }
+}
+
+/// u = A x + b at every node.
+void deform(TestBody& body, const std::array<Vec3, 3>& A, const Vec3& b) {
+    for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n) {
+        const Vec3& x = body.mesh.nodes[n];
+        body.nodes.displacement[n] = to_float(Vec3{dot(A[0], x), dot(A[1], x), dot(A[2], x)} + b);
+    }
+}
+
+std::vector<double> magnitudes(const TestBody& body) {
+    std::vector<double> largest(body.mesh.nodes.size(), 0.0);
+    for (Index copy = 0; copy < body.elements.count; ++copy) {
+        const Tet tet = corners(body.elements, copy);
+        const ForceBlock& block = body.elements.forces[row(copy / lanes)];
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            for (const auto& axis : block.force[corner]) {
+                largest[row(tet[corner])] += std::abs(double(axis[copy % lanes]));
+            }
+        }
+    }
+    return largest;
+}
+
+bool is_same(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3f)) == 0;
+}
+
+} // namespace
+
+TEST_CASE("forces are minus the gradient of the elastic energy, inverted elements included") {
+    for (const double size : {5e-4, 3e-3, 8e-3}) { // of cells of 1e-2 m: small, crushed, inverted
+        CAPTURE(size);
+        TestBody body = make_block();
+        shake(body, size, 4);
+        all_forces(body);
+        const std::vector<Vec3> force = nodal_forces(body);
+        const std::vector<double> scale = magnitudes(body);
+        for (const std::size_t n : {std::size_t{0}, std::size_t{50}, std::size_t{119}}) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const float before = body.nodes.displacement[n][axis];
+                const float h = 1e-5F;
+                const float up = before + h;
+                const float down = before - h;
+                body.nodes.displacement[n][axis] = up;
+                const double above = elastic_energy(body.elements, body.nodes);
+                body.nodes.displacement[n][axis] = down;
+                const double below = elastic_energy(body.elements, body.nodes);
+                body.nodes.displacement[n][axis] = before;
+                // Node forces are those that the tissue resists with: f = dW/du.
+                const double slope = (above - below) / (double(up) - double(down));
+                CHECK(std::abs(slope - force[n][axis]) < 2e-5 * scale[n]);
+            }
+        }
+    }
+}
+
+TEST_CASE("an affine deformation leaves no net force inside and the same stress everywhere") {
+    TestBody body = make_block();
+    deform(body, {{{0.2, 0.1, -0.05}, {0.3, -0.1, 0.1}, {0.0, 0.2, 0.15}}}, {0.1, 0.2, 0.3});
+    all_forces(body);
+    const std::vector<Vec3> force = nodal_forces(body);
+    const std::vector<double> scale = magnitudes(body);
+    for (std::size_t n = 0; n < force.size(); ++n) {
+        const Vec3& x = body.mesh.nodes[n];
+        const bool inside = x[0] > 1e-6 && x[0] < 0.03 - 1e-6 && x[1] > 1e-6 && x[1] < 0.04 - 1e-6 &&
+                            x[2] > 1e-6 && x[2] < 0.05 - 1e-6;
+        if (inside) { CHECK(length(force[n]) < 2e-5 * scale[n]); }
+    }
+    const double expected = von_mises_stress(body.elements, body.nodes, 0);
+    CHECK(expected > 100);
+    for (Index copy = 1; copy < body.elements.count; ++copy) {
+        CHECK(von_mises_stress(body.elements, body.nodes, copy) == doctest::Approx(expected).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("von Mises stress of a uniaxial strain is the difference of the principal Cauchy stresses") {
+    TestBody body = make_block();
+    deform(body, {{{0.5, 0, 0}, {0, 0, 0}, {0, 0, 0}}}, {});
+    const double mu = body.material.young / (2 * (1 + body.material.poisson));
+    CHECK(von_mises_stress(body.elements, body.nodes, 7) ==
+          doctest::Approx(mu * std::pow(1.5, -5.0 / 3) * (1.5 * 1.5 - 1)).epsilon(1e-5));
+}
+
+TEST_CASE("forces turn with a rigid rotation") {
+    TestBody body = make_block();
+    shake(body, 1e-3, 5);
+    TestBody turned = body;
+    const double c = std::cos(1.1);
+    const double s = std::sin(1.1);
+    const auto turn = [&](const Vec3& x) { return Vec3{c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]}; };
+    for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n) {
+        const Vec3& x = body.mesh.nodes[n];
+        turned.nodes.displacement[n] = to_float(turn(x + to_double(body.nodes.displacement[n])) - x);
+    }
+    all_forces(body);
+    all_forces(turned);
+    const std::vector<Vec3> force = nodal_forces(body);
+    const std::vector<Vec3> turned_force = nodal_forces(turned);
+    const std::vector<double> scale = magnitudes(body);
+    for (std::size_t n = 0; n < force.size(); ++n) {
+        CHECK(length(turn(force[n]) - turned_force[n]) < 1e-4 * scale[n]);
+    }
+}
+
+TEST_CASE("a translation or a motion without strain changes no bit of zero force") {
+    TestBody body = make_block(1e-4);
+    deform(body, {}, {0.25, -0.5, 0.125});
+    for (Vec3f& v : body.nodes.velocity) {
+        v = {1, 2, -3};
+    }
+    all_forces(body);
+    for (const Vec3& force : nodal_forces(body)) {
+        CHECK(length(force) == 0);
+    }
+}
+
+TEST_CASE("internal forces sum to zero") {
+    TestBody body = make_block(1e-4);
+    shake(body, 2e-3, 6);
+    all_forces(body);
+    Vec3 sum = {};
+    double total = 0;
+    for (const Vec3& force : nodal_forces(body)) {
+        sum += force;
+        total += length(force);
+    }
+    CHECK(length(sum) < 1e-7 * total);
+}
+
+TEST_CASE("viscous forces resist the rate of strain and take energy") {
+    TestBody body = make_block(1e-3);
+    std::mt19937 engine(9);
+    std::normal_distribution<double> normal(0, 1e-3);
+    for (Vec3f& v : body.nodes.velocity) {
+        v = to_float({normal(engine), normal(engine), normal(engine)});
+    }
+    all_forces(body);
+    double power = 0;
+    const std::vector<Vec3> force = nodal_forces(body);
+    for (std::size_t n = 0; n < force.size(); ++n) {
+        power += dot(force[n], to_double(body.nodes.velocity[n]));
+    }
+    CHECK(power > 0);
+}
+
+TEST_CASE("neutral lanes bear no force and are no node's") {
+    TestBody body = make_test_body(kuhn_block({0.01, 0.01, 0.01}, {1, 1, 1}), Material{}, 1e-4);
+    shake(body, 1e-3, 7);
+    all_forces(body);
+    REQUIRE(body.elements.count == 6);
+    for (const auto& corner : body.elements.forces[0].force) {
+        for (const auto& axis : corner) {
+            for (Index lane = 6; lane < lanes; ++lane) {
+                CHECK(axis[lane] == 0);
+            }
+        }
+    }
+    for (const Index slot : body.elements.next_slot) {
+        CHECK(slot < 24);
+    }
+}
+
+TEST_CASE("a step has the same bits however its ranges are split") {
+    TestBody whole = make_block(1e-4);
+    shake(whole, 1e-3, 8);
+    TestBody parts = whole;
+    const StepConstants constants{1e-4F, 1, {0, 0, -9.81F}};
+    const Index blocks = Index(whole.elements.blocks.size());
+    const Index nodes = node_count(whole);
+    const StepSums sums = step(whole, constants);
+    for (Index b = blocks - 1; b >= 0; --b) {
+        element_forces(parts.elements, parts.nodes, {b, b + 1});
+    }
+    StepSums second = node_update(parts.elements, parts.nodes, constants, {nodes / 3, nodes});
+    const StepSums first = node_update(parts.elements, parts.nodes, constants, {0, nodes / 3});
+    CHECK(is_same(whole.nodes.displacement, parts.nodes.next_displacement));
+    CHECK(is_same(whole.nodes.velocity, parts.nodes.next_velocity));
+    CHECK(sums.speed_squared == std::max(first.speed_squared, second.speed_squared));
+    CHECK(sums.kinetic == doctest::Approx(first.kinetic + second.kinetic).epsilon(1e-12));
+}

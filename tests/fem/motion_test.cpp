@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "body.hpp"
+
+using namespace resect;
+
+namespace {
+
+void kick(TestBody& body, double speed, unsigned seed) {
+    std::mt19937 engine(seed);
+    std::normal_distribution<double> normal(0, speed);
+    for (Vec3f& v : body.nodes.velocity) {
+        v = to_float({normal(engine), normal(engine), normal(engine)});
+    }
+}
+
+TestBody make_cube(double viscous_time = 0) {
+    return make_test_body(kuhn_block({0.1, 0.1, 0.1}, {4, 4, 4}), Material{}, viscous_time);
+}
+
+struct Momentum {
+    Vec3 linear = {}, angular = {};
+    double scale = 0; // sum of m |v|
+};
+
+Momentum momentum(const TestBody& body) {
+    Momentum sum;
+    for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n) {
+        const Vec3 p = double(body.nodes.mass[n]) * to_double(body.nodes.velocity[n]);
+        sum.linear += p;
+        sum.angular += cross(body.mesh.nodes[n] + to_double(body.nodes.displacement[n]), p);
+        sum.scale += length(p);
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("a free fall is exact") {
+    TestBody body = make_cube(1e-4);
+    const StepConstants constants{1e-3F, 0, {0, 0, -9.81F}};
+    for (int i = 0; i < 100; ++i) {
+        step(body, constants);
+    }
+    // Leapfrog from rest half a step before: u_n = g dt^2 n (n + 1) / 2.
+    const double expected = -9.81 * 1e-6 * 100 * 101 / 2;
+    for (const Vec3f& u : body.nodes.displacement) {
+        CHECK(u[0] == 0);
+        CHECK(double(u[2]) == doctest::Approx(expected).epsilon(2e-6));
+    }
+}
+
+TEST_CASE("mass-proportional damping slows a free body as central differences say") {
+    TestBody body = make_cube();
+    for (Vec3f& v : body.nodes.velocity) {
+        v = {1, 0, 0};
+    }
+    const StepConstants constants{1e-3F, 5, {}};
+    double damping_work = 0;
+    for (int i = 0; i < 100; ++i) {
+        damping_work += step(body, constants).damping_work;
+    }
+    const double factor = std::pow((1 - 0.0025) / (1 + 0.0025), 100);
+    CHECK(double(body.nodes.velocity[0][0]) == doctest::Approx(factor).epsilon(1e-5));
+    CHECK(damping_work == doctest::Approx(0.5 * (1 - factor * factor)).epsilon(1e-4));
+}
+
+TEST_CASE("momentum is conserved over 1000 steps without loads, and without viscosity angular momentum too") {
+    for (const double viscous_share : {0.0, 0.1}) {
+        TestBody body = make_cube(viscous_share * rest_bound(make_cube()));
+        kick(body, 0.05, 1);
+        const StepConstants constants{float(0.7 * rest_bound(body)), 0, {}};
+        const Momentum before = momentum(body);
+        for (int i = 0; i < 1000; ++i) {
+            step(body, constants);
+        }
+        const Momentum after = momentum(body);
+        CHECK(length(after.linear - before.linear) < 1e-6 * before.scale);
+        if (viscous_share == 0) { CHECK(length(after.angular - before.angular) < 1e-6 * before.scale * 0.1); }
+        CHECK(before.scale > 0.01);
+    }
+}
+
+TEST_CASE("energy does not drift without damping") {
+    TestBody body = make_cube();
+    kick(body, 0.05, 2);
+    const StepConstants constants{float(0.5 * rest_bound(body)), 0, {}};
+    const auto total = [&] {
+        const double before = step(body, constants).kinetic; // at half steps
+        const double elastic = elastic_energy(body.elements, body.nodes);
+        const double after = step(body, constants).kinetic;
+        return (before + after) / 2 + elastic;
+    };
+    double early = 0;
+    double late = 0;
+    for (int i = 0; i < 100; ++i) {
+        early += total() / 100;
+    }
+    for (int i = 0; i < 1800; ++i) {
+        step(body, constants);
+    }
+    for (int i = 0; i < 100; ++i) {
+        late += total() / 100;
+    }
+    CHECK(late == doctest::Approx(early).epsilon(5e-3));
+}
+
+TEST_CASE("kinetic energy and works balance to rounding in every step") {
+    TestBody body = make_cube(1e-4);
+    hold_where(body, [](const Vec3& x) { return x[0] == 0; });
+    body.nodes.load[124] = {0.1F, 0, 0.2F};
+    const StepConstants constants{float(0.7 * rest_bound(body)), 2, {0, 0, -9.81F}};
+    double kinetic = 0;
+    double throughput = 0;
+    double error = 0;
+    for (int i = 0; i < 300; ++i) {
+        const StepSums sums = step(body, constants);
+        const double work = sums.applied_work - sums.internal_work - sums.damping_work;
+        error = std::max(error, std::abs(sums.kinetic - kinetic - work));
+        kinetic = sums.kinetic;
+        throughput = std::max(throughput, kinetic);
+    }
+    CHECK(throughput > 1e-3);
+    CHECK(error < 1e-7 * throughput);
+}
+
+TEST_CASE("the internal work of a slow undamped motion is the elastic energy") {
+    TestBody body = make_cube();
+    hold_where(body, [](const Vec3& x) { return x[0] == 0; });
+    const StepConstants constants{float(0.1 * rest_bound(body)), 0, {0, 0, -9.81F}};
+    double work = 0;
+    for (int i = 0; i < 400; ++i) {
+        work += step(body, constants).internal_work;
+    }
+    // Works end half a step before the displacement of now, so the last force counts half.
+    all_forces(body);
+    double rest_of_work = 0;
+    const std::vector<Vec3> force = nodal_forces(body);
+    for (std::size_t n = 0; n < force.size(); ++n) {
+        rest_of_work += 0.5 * double(constants.time_step) * dot(force[n], to_double(body.nodes.velocity[n]));
+    }
+    CHECK(work + rest_of_work == doctest::Approx(elastic_energy(body.elements, body.nodes)).epsilon(1e-3));
+}
+
+TEST_CASE("the first axial frequency of a bar is that of the wave equation within 2 %") {
+    // nu = 0: c = sqrt(E / rho), fixed-free, f = c / (4 L).
+    Material material;
+    material.poisson = 0;
+    const double bar = 0.2;
+    TestBody body = make_test_body(kuhn_block({bar, 0.02, 0.02}, {40, 4, 4}), material);
+    hold_where(body, [](const Vec3& x) { return x[0] == 0; });
+    for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n) {
+        const double phase = std::numbers::pi / 2 * body.mesh.nodes[n][0] / bar;
+        body.nodes.displacement[n] = to_float({1e-5 * std::sin(phase), 0, 0});
+    }
+    const StepConstants constants{float(0.7 * rest_bound(body)), 0, {}};
+    const std::size_t tip = body.mesh.nodes.size() - 1;
+    double first = 0;
+    double last = 0;
+    int crossings = 0;
+    float before = body.nodes.displacement[tip][0];
+    for (int i = 1; crossings < 9 && i < 20000; ++i) {
+        step(body, constants);
+        const float now = body.nodes.displacement[tip][0];
+        if ((before > 0) != (now > 0)) {
+            const double at = (i - 1 + double(before) / double(before - now)) * double(constants.time_step);
+            (crossings == 0 ? first : last) = at;
+            ++crossings;
+        }
+        before = now;
+    }
+    REQUIRE(crossings == 9);
+    const double frequency = 4 / (last - first); // eight half periods
+    const double expected = std::sqrt(material.young / material.density) / (4 * bar);
+    MESSAGE("frequency over that of the wave equation: ", frequency / expected);
+    CHECK(frequency == doctest::Approx(expected).epsilon(0.02));
+}
+
+TEST_CASE("a held node stays where its caller put it, and pulls") {
+    TestBody body = make_cube();
+    hold_where(body, [](const Vec3& x) { return x[0] == 0; });
+    body.nodes.displacement[0] = {-0.01F, 0, 0};
+    body.nodes.velocity[0] = {0.5F, 0, 0};
+    const StepConstants constants{float(0.5 * rest_bound(body)), 0, {0, 0, -9.81F}};
+    step(body, constants);
+    CHECK(body.nodes.displacement[0] == Vec3f{-0.01F, 0, 0});
+    CHECK(body.nodes.velocity[0] == Vec3f{0.5F, 0, 0});
+    CHECK(body.nodes.velocity[1][0] < 0); // its neighbour along x
+}
+
+TEST_CASE("what is not finite shows in the largest speed") {
+    const StepConstants constants{1e-4F, 0, {}};
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        TestBody moved = make_cube();
+        moved.nodes.displacement[60][1] = bad;
+        CHECK_FALSE(std::isfinite(step(moved, constants).speed_squared));
+        TestBody fast = make_cube();
+        fast.nodes.velocity[0][2] = bad;
+        CHECK_FALSE(std::isfinite(step(fast, constants).speed_squared));
+    }
+    TestBody sound = make_cube();
+    sound.nodes.velocity[3] = {3, 0, 4};
+    CHECK(step(sound, {0, 0, {}}).speed_squared == 25);
+}
+
+TEST_CASE("the out-of-balance force is the applied one at rest and vanishes in equilibrium") {
+    TestBody body = make_cube(1e-3);
+    hold_where(body, [](const Vec3& x) { return x[2] == 0; });
+    const StepConstants constants{float(0.5 * rest_bound(body)), 20, {0, 0, -1.0F}};
+    const Range all = {0, node_count(body)};
+    all_forces(body);
+    const Residual start = out_of_balance(body.elements, body.nodes, constants, all);
+    CHECK(start.out_of_balance == start.applied);
+    CHECK(start.applied > 0);
+    for (int i = 0; i < 3000; ++i) {
+        step(body, constants);
+    }
+    all_forces(body);
+    const Residual end = out_of_balance(body.elements, body.nodes, constants, all);
+    CHECK(std::sqrt(end.out_of_balance / end.applied) < 1e-4);
+}
