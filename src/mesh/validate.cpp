@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <optional>
 
 #include "mesh/adjacency.hpp"
+#include "mesh/fault.hpp"
 
 namespace resect {
 namespace {
-
-using Fault = std::optional<Error>;
 
 /// Six times the volume against the cube of the longest edge, below which single precision sees no volume.
 constexpr double flat_share = 1e-6;
