@@ -10,6 +10,8 @@ namespace resect {
 namespace {
 
 constexpr Index most_elements = 20'000'000;
+/// Tries that find no material, each at half the spacing of the one before, until a body counts as empty.
+constexpr int most_empty_tries = 5;
 
 /// The lattice shift of a try: points that fill the unit cube evenly, however many are taken (powers of the
 /// inverse of the root of x^4 = x + 1).
@@ -68,6 +70,7 @@ Fault find_lattice_body(const Shape& shape, const Box& bounds, const ElementTarg
     plan = {std::cbrt(6 * volume_of(bounds) / std::min(target.elements, first_target)), {}, refine};
     const auto miss = [&](Index count) { return std::abs(count - target.elements); };
     Index nearest = 0;
+    int empty_tries = 0;
     for (int number = 1; number <= target.tries; ++number) {
         plan.offset = offset_of_try(number);
         Index count = 0;
@@ -77,12 +80,12 @@ Fault find_lattice_body(const Shape& shape, const Box& bounds, const ElementTarg
             if (Fault fault = build_lattice_body(shape, bounds, plan, found.body)) { return fault; }
             if (miss(static_cast<Index>(found.body.elements.tets.size())) <= target.tolerance) { return {}; }
         }
+        if (count == 0 && ++empty_tries == most_empty_tries) { break; }
         plan.spacing = scale_spacing(plan.spacing, count, target.elements);
     }
-    return Error{fmt::format(
-        "no lattice with {} elements was found in {} tries, the nearest has {}: the body is empty, "
-        "or the number too small for it; give a spacing",
-        target.elements, target.tries, nearest)};
+    return Error{fmt::format("no lattice with {} elements was found, the nearest has {}: the body is empty, "
+                             "or the number too small for it; give a spacing",
+                             target.elements, nearest)};
 }
 
 Result<Body> make_body(const std::function<double(Vec3)>& inside_below_zero, Box bounds, Lattice lattice) {

@@ -39,6 +39,7 @@ constexpr Preset presets[] = {
     {paper_elements, {0.0164261, {0.926, 0.408, 0.345}, 0}},
     {paper_elements, {0.0164654, {0.375, 0.117, 0.619}, 1}},
     {paper_elements, {0.0164622, {0.832, 0.131, 0.268}, 2}},
+    {paper_elements, {0.0164627, {0.832, 0.131, 0.268}, 3}},
 };
 
 const Preset* find_preset(const Lattice& lattice) {
