@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cut/blade.hpp"
+#include "cut/cutter.hpp"
+#include "cut/marks.hpp"
+#include "cut/material_mesh.hpp"
+#include "cut/predicate.hpp"
+
+namespace resect {
+
+/// A material vertex, before and after an increment, in the frame of the blade.
+struct Track {
+    GridPoint before = {}, after = {};
+    double height_before = 0, height_after = 0; // m above the tip
+    std::uint8_t outside = 0;                   // a bit for each side of the blade's box that it stays beyond
+    bool on_grid = false;
+};
+
+/// A face of a tet.
+struct TetFace {
+    Index tet = 0;
+    std::size_t face = 0;
+};
+
+/// What one increment works with; kept only so that nothing is allocated again.
+struct Scratch {
+    // detect
+    std::vector<std::uint8_t> node_outside = {}; // [node]
+    std::vector<Track> tracks = {};              // [vertex] where tracked
+    Marks tracked = {};                          // vertices
+    struct Near {
+        double distance_squared = 0;
+        Index vertex = 0;
+    };
+    std::vector<Near> near = {}; // vertices whose path meets the blade
+    struct Event {
+        Index u = 0, w = 0, tet = 0; // edge u < w, and a tet around it
+        double t = 0;                // from u
+    };
+    std::vector<Event> events = {};
+    Index off_grid = 0; // tets left out because they are off the integer grid
+
+    // bisect and tear
+    std::vector<Index> queue = {}; // tets to look at again
+    Marks queued = {};             // tets that have been in the queue
+    std::vector<Index> dirty = {}; // the same as a list
+    Index bisections = 0;
+    Marks walked = {}; // tets
+    std::vector<Index> ring = {}, star = {};
+    std::vector<TetFace> torn = {};
+    struct Seed {
+        Index vertex = 0, tet = 0;
+        auto operator<=>(const Seed&) const = default;
+    };
+    std::vector<Seed> seeds = {};
+    Marks in_cluster = {}; // tets
+    std::vector<Index> cluster = {};
+
+    // derive
+    std::vector<Index> parted = {}, touched = {}, reweighed = {}; // copies
+    std::vector<Index> elements = {};
+    Marks changed = {};      // copies whose fraction or weight changed
+    Marks walked_pairs = {}; // copy and corner
+    struct Part {
+        std::size_t begin = 0, end = 0; // rows of part_tets
+        double volume = 0;
+    };
+    std::vector<Index> part_tets = {};
+    std::vector<Part> parts = {};
+    struct Neighbour {
+        Index copy = 0;
+        std::size_t face = 0; // of the element
+    };
+    std::vector<Neighbour> neighbours = {};
+    std::vector<Range> neighbour_range = {}; // [copy] where listed, rows of neighbours
+    Marks listed = {};                       // copies
+    struct NodeClass {
+        Index node = 0; // that its pairs had
+        double mass = 0;
+        Index begin = 0, end = 0; // rows of pairs
+        bool changed = false;     // a member's weight or material did
+    };
+    std::vector<Index> pairs = {}; // 4 * copy + corner
+    std::vector<NodeClass> classes = {};
+};
+
+/// The surface as of `revision`, with what its vertices hang on.
+struct SurfaceCache {
+    std::uint64_t revision = 0;
+    std::vector<Index> vertex = {}; // of the material
+    std::vector<std::array<Index, 4>> node = {};
+    std::vector<std::array<float, 4>> weight = {};
+    std::vector<Vec3f> rest = {}, position = {}, normal = {};
+    std::vector<std::array<Index, 3>> triangle = {};
+    std::vector<Index> face = {}, copy = {}, piece = {};
+    Range dirty = {};
+};
+
+struct PieceCache {
+    std::uint64_t revision = 0;
+    std::vector<Index> of_copy = {}; // ids; a new copy starts with its parent's
+    std::vector<Piece> pieces = {};  // by id
+    Index next_id = 0;
+};
+
+struct Cutter {
+    Body body = {}; // R; its material is in `material`
+    CutterSetup setup = {};
+    std::vector<double> element_volume = {}; // [element] m^3
+    std::vector<double> element_fill = {};   // [element] share that was material at creation
+    double initial_volume = 0;               // m^3, of the material at creation
+    double unit = 1;                         // m, of the integer grid
+    double grain = 0;                        // m, the largest of the material
+
+    MaterialMesh material = {};
+    SimulationMesh mesh = {};
+    std::vector<Index> first_tet = {};  // [copy] head of the list of its tets
+    std::vector<Index> sibling = {};    // [copy] next copy of the same element, or -1
+    std::vector<Index> first_copy = {}; // [element] head of that list
+
+    std::vector<Blade> blades = {};
+    Index strokes = 0;          // begun so far
+    std::uint64_t revision = 1; // of the material's topology
+    PieceCache pieces = {};
+    SurfaceCache surface = {};
+    Scratch scratch = {};
+
+    const Tet& element(Index copy) const { return body.elements.tets[row(mesh.copy_element[row(copy)])]; }
+};
+
+/// The copy's simulation nodes for a support over element nodes; -1 where the support has no more.
+std::array<Index, 4> find_nodes(const Cutter& cutter, const Support& support, Index copy);
+
+/// Where a material vertex is now, m.
+Vec3 displaced_position(const Cutter& cutter, Index vertex, std::span<const Vec3f> displacement);
+
+} // namespace resect

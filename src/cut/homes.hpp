@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cut/cutter_state.hpp"
+
+namespace resect {
+
+/// The home of a class of (copy, corner) pairs: the material vertex of its copies that is nearest to the
+/// reference node; the lowest of several.
+Index find_home(const Cutter& cutter, std::span<const Index> pairs, Index reference);
+
+/// Writes home and hold of a node.
+void update_home(Cutter& cutter, Index node, std::span<const Index> pairs);
+
+} // namespace resect

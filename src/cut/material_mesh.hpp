@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cut/marks.hpp"
+#include "cut/support.hpp"
+
+namespace resect {
+
+/// A face of a tet as one number, for links.
+constexpr Index make_link(Index tet, std::size_t face) { return 4 * tet + static_cast<Index>(face); }
+constexpr Index tet_of(Index link) { return link / 4; }
+constexpr std::size_t face_of(Index link) { return row(link % 4); }
+
+struct MaterialTet {
+    Tet vertex = {};
+    std::array<Index, 4> link = {-1, -1, -1, -1}; // [face] the same face as another tet has it; -1: boundary
+    std::array<Index, 4> label = {};              // [boundary face] 0 outer, +-k the sides of stroke k
+    std::array<std::int8_t, 4> element_face = {-1, -1, -1,
+                                               -1}; // [face] the element's face that holds it, or -1
+    Index copy = 0;
+    Index next = -1;   // of the copy's tets; -1: last
+    double volume = 0; // m^3
+};
+
+/// M, the material: conforming tets that tile the filled part of the elements. Changed in two ways only, both
+/// legal anywhere: an edge is bisected, a vertex is split between parts of its star (and links are dropped).
+struct MaterialMesh {
+    std::vector<MaterialTet> tets = {};
+    std::vector<Vec3> rest = {};           // [vertex] m
+    std::vector<Support> support = {};     // [vertex] over element nodes
+    std::vector<Index> any_tet = {};       // [vertex] one tet of its star; -1: unused
+    std::vector<double> grain = {};        // [vertex] m, edge of the tets here at creation
+    std::vector<std::uint8_t> on_cut = {}; // [vertex] 1: on a sheet that was torn
+
+    MaterialTet& tet(Index at) { return tets[row(at)]; }
+    const MaterialTet& tet(Index at) const { return tets[row(at)]; }
+    Index tet_count() const { return static_cast<Index>(tets.size()); }
+    Index vertex_count() const { return static_cast<Index>(rest.size()); }
+    const Vec3& at(const MaterialTet& tet, std::size_t corner) const { return rest[row(tet.vertex[corner])]; }
+};
+
+/// The tets around `vertex` that links join to `seed`, through faces that contain the vertex. Appended to
+/// `star` and marked; marks that are there already are walls.
+void walk_star(const MaterialMesh& mesh, Index vertex, Index seed, Marks& marks, std::vector<Index>& star);
+
+/// The tets around edge (u, w), in the order of a walk around u.
+void find_ring(const MaterialMesh& mesh, Index u, Index w, Marks& marks, std::vector<Index>& ring);
+
+/// Halves the tets of `ring` at (1 - t) u + t w and returns the new vertex. A halved tet keeps the side of u;
+/// the sides of w are appended in the ring's order.
+Index bisect_edge(MaterialMesh& mesh, Index u, Index w, double t, std::span<const Index> ring);
+
+/// Gives the tets of `star` a vertex of their own in place of `vertex`, and returns it.
+Index split_vertex(MaterialMesh& mesh, Index vertex, std::span<const Index> star);
+
+/// Vector of twice the area of a face of a tet at rest, out of the tet.
+Vec3 face_normal(const MaterialMesh& mesh, Index tet, std::size_t face);
+
+} // namespace resect

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cut/cutter_state.hpp"
+
+namespace resect {
+
+/// Shares the weight of an element among its copies (docs/cutting.md, "Weights"): the share of material, with
+/// a floor once there are several; in copy mode the whole of it for each.
+void weigh_element(Cutter& cutter, Index element);
+
+/// Mass of a node that is the class of `pairs`, kg.
+double sum_mass(const Cutter& cutter, std::span<const Index> pairs);
+
+} // namespace resect
