@@ -22,6 +22,7 @@ struct Settle {
 
 struct Scene {
     std::string name = {};
+    std::string description = {}; // free text: what it shows and why its values are what they are
     Setup setup = {};
     bool settle = false;
     Settle settling = {};
@@ -40,8 +41,17 @@ Result<void> write_surface(const std::string& path, const Surface& surface);
 Result<void> write_rest_surface(const std::string& path, const Surface& surface);
 /// The element copies with their fields, as .vtu (points at rest, docs/manual.md lists the arrays).
 Result<void> write_mesh(const std::string& path, const Simulation& simulation);
-/// A body's elements, as .vtu, .vtk or .msh.
+/// A body's elements, as .vtu, .vtk (ASCII) or .msh (2.2, ASCII). The node sets go into .vtu (a UInt8 point
+/// array each, 1 inside) and .msh (a physical group each), and load_body() takes them from there.
 Result<void> write_body(const std::string& path, const Body& body);
+
+/// One file of a series in time.
+struct SeriesEntry {
+    double time = 0;       // s
+    std::string file = {}; // relative to the folder of the series
+};
+/// A ParaView collection, .pvd.
+Result<void> write_series(const std::string& path, std::span<const SeriesEntry> entries);
 
 /// What `resect info` prints.
 struct MeshInfo {
