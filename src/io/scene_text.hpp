@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "resect/files.hpp"
+
+namespace resect {
+
+struct LiverSource {
+    Lattice lattice = {};
+};
+struct BlockSource {
+    Vec3 size = {};
+    std::array<Index, 3> cells = {};
+    Split split = Split::six;
+};
+struct FileSource {
+    std::string path = {}; // as the scene names it
+};
+
+/// What a scene file says, before any body is built.
+struct SceneDescription {
+    std::variant<LiverSource, BlockSource, FileSource> mesh = {};
+    std::string initial_displacement = {},
+                initial_velocity = {}; // point arrays of the mesh file; empty: none
+    Scene scene = {};                  // with no body and no initial motion yet
+};
+
+/// `name` begins the messages.
+Result<SceneDescription> parse_scene(std::string_view text, const std::string& name,
+                                     std::span<const std::string> overrides = {});
+
+} // namespace resect
