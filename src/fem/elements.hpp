@@ -40,8 +40,8 @@ struct Elements {
 
 /// Rest data of an element, in double precision; never changes (paper III.C, pre-computation 1).
 struct RestElement {
-    std::array<Vec3, 4> gradient; // 1/m, of the four shape functions
-    double volume = 0;            // m^3
+    std::array<Vec3, 4> gradient = {}; // 1/m, of the four shape functions
+    double volume = 0;                 // m^3
 };
 
 std::vector<RestElement> build_rest(const TetMesh& mesh);

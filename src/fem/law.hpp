@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 
 #include "resect/setup.hpp"
 
-#include "base/vec.hpp"
-
-// The material law as pure functions of scalars, for lane loops in float (no branch, no call, no division)
-// and for checks in double:
-//
-//   W = mu/2 (phi(J) I1 - 3) + K/2 (J - 1)^2,   phi = J^(-2/3),   I1 = tr C = |F|^2
-//   P = dW/dF = a F + b cof F,   a = mu phi,   b = mu/2 phi' I1 + K (J - 1)
+// The material law, W = mu/2 (J^(-2/3) I1 - 3) + K/2 (J - 1)^2 with I1 = |F|^2 and J = det F, twice: in float
+// for lane loops (no branch, no call, no division) while an element is in the trusted range; and in double,
+// with derivatives, everywhere. Beyond the range the law is softened and continued (law.cpp, docs/method.md).
 namespace resect {
 
 struct Moduli {
@@ -26,31 +19,25 @@ inline Moduli moduli(const Material& material) {
     return {material.young / (2 * (1 + material.poisson)), material.young / (3 * (1 - 2 * material.poisson))};
 }
 
-/// Below this J, phi goes on as a parabola that meets J^(-2/3) with its first and second derivative, so that
-/// crushed and inverted elements have finite energy and are pushed back (docs/method.md).
-inline constexpr double continued_below = 0.3;
+/// Where the law is exactly neo-Hookean.
+inline constexpr double trusted_J = 0.6;   // and above
+inline constexpr double trusted_I1 = 10.5; // and below; uniaxial tension at nu 0.35 reaches it at 3.1
+inline constexpr double trusted_I2 = 11;   // and below; I2 = |cof F|^2
 
+/// F as the law sees it, in differences from rest, which float holds to its relative precision where strain
+/// is small.
 template <class T>
-struct Isochoric {
-    T value, slope, curvature; // phi, d phi / dJ, d2 phi / dJ2
+struct Invariants {
+    T volume_change; // J - 1
+    T length_change; // I1 - 3
+    T area_change;   // I2 - 3
 };
 
-/// phi below continued_below. With `isochoric` the only place that knows how the law is continued.
 template <class T>
-Isochoric<T> continued(T J) {
-    constexpr double J0 = continued_below;
-    constexpr double phi0 = 2.231443166940565; // J0^(-2/3)
-    constexpr T value = static_cast<T>(phi0);
-    constexpr T slope = static_cast<T>(-2 * phi0 / (3 * J0));
-    constexpr T curvature = static_cast<T>(10 * phi0 / (9 * J0 * J0));
-    const T d = J - static_cast<T>(J0);
-    return {value + d * (slope + d * (curvature / 2)), slope + d * curvature, curvature};
-}
-
-inline Isochoric<double> isochoric(double J) {
-    if (J < continued_below) { return continued(J); }
-    const double phi = 1 / std::cbrt(J * J);
-    return {phi, -2 * phi / (3 * J), 10 * phi / (9 * J * J)};
+bool is_trusted(const Invariants<T>& now) {
+    return (now.volume_change >= static_cast<T>(trusted_J - 1)) &
+           (now.length_change <= static_cast<T>(trusted_I1 - 3)) &
+           (now.area_change <= static_cast<T>(trusted_I2 - 3));
 }
 
 /// x^(-1/3) for finite positive x, relative error below 1e-7. The exponent is divided by three in the bits of
@@ -66,36 +53,31 @@ inline float inverse_cube_root(float x) {
     return y;
 }
 
-inline double inverse_cube_root(double x) { return 1 / std::cbrt(x); }
-
-template <class T>
+/// P = a F + b cof F, with a = mu phi and b = mu/2 phi' I1 + K (J - 1), Pa. `net` is a + b, which F and cof
+/// F, both I at rest, leave there: it is free of cancellation, and b is net - a.
 struct Coefficients {
-    T a;   // Pa, of F
-    T net; // Pa, a + b: what F and cof F, which are both I at rest, leave there; b = net - a
+    float a, net;
 };
 
-/// Of P, from J - 1 and I1 - 3, which float holds to its relative precision near a state without strain where
-/// J and I1 would not; `net` is then free of cancellation too.
-template <class T>
-Coefficients<T> law_coefficients(T J_minus_1, T I1_minus_3, T mu, T bulk) {
-    constexpr T J0 = static_cast<T>(continued_below);
-    const T J = 1 + J_minus_1;
-    const T r = inverse_cube_root(J > J0 ? J : J0);
-    const T phi = r * r;
+/// In the trusted range; finite anywhere.
+inline Coefficients trusted_law(const Invariants<float>& now, float mu, float bulk) {
+    constexpr auto least = static_cast<float>(trusted_J);
+    const float J = 1 + now.volume_change;
+    const float r = inverse_cube_root(J > least ? J : least);
+    const float phi = r * r;
     // phi + phi' I1 / 2 where phi' = -2/3 phi / J and 1 / J = r^3
-    const T rest = phi * (r * r * r) * (J_minus_1 - I1_minus_3 * (T(1) / 3));
-    const Isochoric<T> below = continued(J);
-    const T below_rest = below.value + below.slope * (3 + I1_minus_3) * (T(1) / 2);
-    const bool trusted = J >= J0;
-    return {mu * (trusted ? phi : below.value), mu * (trusted ? rest : below_rest) + bulk * J_minus_1};
+    const float rest = phi * (r * r * r) * (now.volume_change - now.length_change * (1.0F / 3));
+    return {mu * phi, mu * rest + bulk * now.volume_change};
 }
 
-/// W, J per m^3; phi I1 - 3 is formed from small differences as above.
-inline double energy_density(double J_minus_1, double I1_minus_3, const Moduli& m) {
-    const double J = 1 + J_minus_1;
-    const double phi_minus_1 = J < continued_below ? continued(J).value - 1 //
-                                                   : std::expm1(std::log1p(J_minus_1) * (-2.0 / 3));
-    return m.mu / 2 * (I1_minus_3 + phi_minus_1 * (3 + I1_minus_3)) + m.bulk / 2 * J_minus_1 * J_minus_1;
-}
+/// W and its derivatives by J, I1 and I2, J/m^3.
+struct Energy {
+    double W = 0;
+    double J = 0, I1 = 0, I2 = 0;
+    double JJ = 0, JI1 = 0, JI2 = 0, I1I1 = 0, I1I2 = 0, I2I2 = 0;
+};
+
+/// Everywhere, inverted states included.
+Energy law(const Invariants<double>& now, const Moduli& m);
 
 } // namespace resect

@@ -58,7 +58,7 @@ Residual out_of_balance(const Elements& elements, const NodeArrays& nodes, const
 /// Deformation of the copies, looked at every few steps.
 struct StrainCheck {
     double stretch_min = 1, stretch_max = 1;
-    Index beyond_range = 0, inverted = 0;                        // J < continued_below, J <= 0
+    Index beyond_range = 0, inverted = 0;                        // not is_trusted (fem/law.hpp), J <= 0
     Index worst_copy = -1;                                       // smallest live bound
     double live_bound = std::numeric_limits<double>::infinity(); // s
 };

@@ -11,10 +11,10 @@ namespace {
 
 /// A copy in double precision.
 struct CopyState {
-    Matrix3<double> H;
-    double gradient[3][3]; // 1/m, of corners 1 to 3
-    double volume;         // m^3, weighted
-    Moduli moduli;
+    Deformation<double> at = {};
+    double gradient[3][3] = {}; // 1/m, of corners 1 to 3
+    double volume = 0;          // m^3, weighted
+    Moduli moduli = {};
 };
 
 CopyState state_of(const Elements& elements, const NodeArrays& nodes, Index copy) {
@@ -22,7 +22,7 @@ CopyState state_of(const Elements& elements, const NodeArrays& nodes, Index copy
     const Index lane = copy % lanes;
     const Vec3 base = to_double(nodes.displacement[row(block.node[0][lane])]);
     CopyState state;
-    double relative[3][3];
+    double relative[3][3] = {};
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 u = to_double(nodes.displacement[row(block.node[k + 1][lane])]) - base;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -30,18 +30,10 @@ CopyState state_of(const Elements& elements, const NodeArrays& nodes, Index copy
             state.gradient[k][axis] = double(block.gradient[k][axis][lane]);
         }
     }
-    state.H = displacement_gradient(relative, state.gradient);
+    state.at = deformation(displacement_gradient(relative, state.gradient));
     state.volume = double(block.volume[lane]);
     state.moduli = {double(block.mu[lane]), double(block.bulk[lane])};
     return state;
-}
-
-Matrix3<double> cofactors_of_gradient(const Matrix3<double>& H) {
-    Matrix3<double> F = H;
-    for (int i = 0; i < 3; ++i) {
-        F.at[i][i] += 1;
-    }
-    return cofactors(F);
 }
 
 /// sum_i |A grad N_i|^2 over the four corners, 1/m^2.
@@ -63,12 +55,15 @@ double sum_of_squares(const Matrix3<double>& A, const double (&gradient)[3][3]) 
 ///     (cof F : H)^2 <= sum |cof F grad N_i|^2 |u|^2,   |H|^2 <= sum |grad N_i|^2 |u|^2,
 /// so with nodal masses rho V / 4 the largest squared frequency is at most 4 / rho times their sum.
 double live_bound(const CopyState& state, const Stretches& stretches, double density) {
-    static constexpr Matrix3<double> identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const Matrix3<double> identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    Matrix3<double> cof = state.at.cof;
+    for (int i = 0; i < 3; ++i) {
+        cof.at[i][i] += 1;
+    }
     const TangentBound tangent = bound_tangent(stretches, state.moduli);
-    const double stiffness =
-        tangent.volumetric * sum_of_squares(cofactors_of_gradient(state.H), state.gradient) +
-        tangent.remainder * sum_of_squares(identity, state.gradient);
-    return std::sqrt(density / stiffness);
+    const double stiffness = tangent.volumetric * sum_of_squares(cof, state.gradient) +
+                             tangent.remainder * sum_of_squares(identity, state.gradient);
+    return std::sqrt(density / stiffness); // infinite where nothing resists
 }
 
 } // namespace
@@ -87,9 +82,9 @@ StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std:
     StrainCheck check;
     for (Index copy = copies.begin; copy < copies.end; ++copy) {
         const CopyState state = state_of(elements, nodes, copy);
-        const Stretches now = principal_stretches(state.H);
-        check = merge(check, {now.value[2], now.value[0], now.J < continued_below ? 1 : 0, now.J <= 0 ? 1 : 0,
-                              copy, live_bound(state, now, double(density[row(copy)]))});
+        const Stretches now = principal_stretches(state.at.H);
+        check = merge(check, {now.value[2], now.value[0], is_trusted(state.at.now) ? 0 : 1,
+                              now.J <= 0 ? 1 : 0, copy, live_bound(state, now, double(density[row(copy)]))});
     }
     return check;
 }
@@ -98,21 +93,23 @@ double elastic_energy(const Elements& elements, const NodeArrays& nodes) {
     double energy = 0;
     for (Index copy = 0; copy < elements.count; ++copy) {
         const CopyState state = state_of(elements, nodes, copy);
-        const Invariants<double> now = invariants(state.H, cofactors(state.H));
-        energy += state.volume * energy_density(now.J_minus_1, now.I1_minus_3, state.moduli);
+        energy += state.volume * law(state.at.now, state.moduli).W;
     }
     return energy;
 }
 
 double von_mises_stress(const Elements& elements, const NodeArrays& nodes, Index copy) {
     const CopyState state = state_of(elements, nodes, copy);
-    const Stretches now = principal_stretches(state.H);
-    // Only mu phi F of P is not a pressure: the deviator of P F^T / J is that of mu phi / J F F^T. A copy
-    // crushed below a thousandth of its volume counts as that thousandth.
-    const double scale = state.moduli.mu * isochoric(now.J).value / std::max(std::abs(now.J), 1e-3);
-    const Vec3 s = {now.value[0] * now.value[0], now.value[1] * now.value[1], now.value[2] * now.value[2]};
+    const Stretches now = principal_stretches(state.at.H);
+    // Principal Cauchy stresses but for the pressure dW/dJ, which all three share. A copy crushed below a
+    // thousandth of its volume counts as that thousandth.
+    const Energy W = law(state.at.now, state.moduli);
+    const double I1 = 3 + state.at.now.length_change;
+    const double scale = 2 / std::max(std::abs(now.J), 1e-3);
+    const auto stress = [&](double l) { return scale * l * l * (W.I1 + W.I2 * (I1 - l * l)); };
+    const Vec3 s = {stress(now.value[0]), stress(now.value[1]), stress(now.value[2])};
     const Vec3 difference = {s[0] - s[1], s[1] - s[2], s[2] - s[0]};
-    return scale * std::sqrt(dot(difference, difference) / 2);
+    return std::sqrt(dot(difference, difference) / 2);
 }
 
 } // namespace resect

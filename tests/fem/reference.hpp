@@ -60,21 +60,21 @@ inline M3 edges(const std::vector<Vec3>& x, const Tet& tet) { // columns x_k - x
 /// Equations 2 to 5: F, C = F^T F, S = mu J^(-2/3) (I - I1/3 C^-1) + K J (J - 1) C^-1, f = V F S dN.
 inline std::array<Vec3, 4> reference_element_forces(const M3& rest_edges, const M3& edges_now, double mu,
                                                     double bulk) {
-    const M3 dN = inverse(rest_edges); // row k: grad N of corner k + 1
+    const M3 G = inverse(rest_edges); // row k: grad N of corner k + 1
     const double volume = determinant(rest_edges) / 6;
-    const M3 F = multiply(edges_now, dN);
+    const M3 F = multiply(edges_now, G);
     const M3 C = multiply(transpose(F), F);
-    const M3 C_inverse = inverse(C);
+    const M3 B = inverse(C);
     const double J = determinant(F);
     const double I1 = C[0][0] + C[1][1] + C[2][2];
     M3 S = {};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
-            S[i][j] = mu * std::pow(J, -2.0 / 3) * (double(i == j) - I1 / 3 * C_inverse[i][j]) +
-                      bulk * J * (J - 1) * C_inverse[i][j];
+            S[i][j] = mu * std::pow(J, -2.0 / 3) * (double(i == j) - I1 / 3 * B[i][j]) +
+                      bulk * J * (J - 1) * B[i][j];
         }
     }
-    const M3 f = multiply(multiply(F, S), transpose(dN)); // column k: corner k + 1
+    const M3 f = multiply(multiply(F, S), transpose(G)); // column k: corner k + 1
     std::array<Vec3, 4> forces = {};
     for (std::size_t k = 0; k < 3; ++k) {
         forces[k + 1] = volume * Vec3{f[0][k], f[1][k], f[2][k]};

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fem/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+// What an explicit step does not survive is a tangent that stiffens without end: the terms mu/2 phi'' I1 |cof
+// F|^2 and K |cof F|^2 of an element that is stretched several times and squashed flat. So beyond the trusted
+// range
+//
+//   W = mu/2 (I1 - 3 + (phi(J') - 1) g(I1)) + U(J'),   J' = 1 + (J - 1) k(I2)
+//
+// where k takes |cof F| out, g takes I1 out, and phi goes on below trusted_J with a curvature that fades,
+// while U grows a cubic and then quadratic wall that pushes inverted elements back. Widths and the wall's
+// height were found by trial (docs/method.md).
+namespace resect {
+namespace {
+
+constexpr double softening_width = 0.3; // of a threshold
+constexpr double fade_width = 0.2;      // in J', of the curvature of phi
+constexpr double wall = 6;              // of K
+
+/// A function of one argument with its first and second derivative.
+struct Curve {
+    double value, slope, curvature;
+};
+
+/// phi - 1: J^(-2/3), then a cubic whose curvature falls to zero over fade_width, then its tangent.
+Curve isochoric_minus_1(double change) {
+    constexpr double J0 = trusted_J;
+    if (1 + change >= J0) {
+        const double excess = std::expm1(std::log1p(change) * (-2.0 / 3));
+        const double slope = -2.0 / 3 * (1 + excess) / (1 + change);
+        return {excess, slope, -5.0 / 3 * slope / (1 + change)};
+    }
+    const double phi0 = 1 / std::cbrt(J0 * J0);
+    const double slope0 = -2.0 / 3 * phi0 / J0;
+    const double curvature0 = 10.0 / 9 * phi0 / (J0 * J0);
+    const double d = 1 + change - J0;
+    const double in = std::max(d, -fade_width); // the cubic's share
+    const double slope = slope0 + curvature0 * in * (1 + in / (2 * fade_width));
+    const double value =
+        phi0 - 1 + in * (slope0 + curvature0 * in * (0.5 + in / (6 * fade_width))) + slope * (d - in);
+    return {value, slope, d < in ? 0 : curvature0 * (1 + in / fade_width)};
+}
+
+/// U / K: (J' - 1)^2 / 2 and the wall below trusted_J.
+Curve volumetric(double change) {
+    constexpr double J0 = trusted_J;
+    const double m = std::max(0.0, J0 - 1 - change);
+    const double in = std::min(m, J0); // the cubic's share; the rest lies below J' = 0
+    const double out = m - in;
+    return {change * change / 2 + wall * (in * in * in / (6 * J0) + in * out / 2 + out * out / 2),
+            change - wall * (in * in / (2 * J0) + out), 1 + wall * in / J0};
+}
+
+/// k: 1 up to trusted_I2, then falling like I2^(-1/2).
+Curve area_softening(double area_change) {
+    constexpr double width = softening_width * trusted_I2;
+    const double e = (area_change - (trusted_I2 - 3)) / width;
+    if (!(e > 0)) { return {1, 0, 0}; }
+    const double r = 1 / (1 + e * e);
+    const double k = std::sqrt(std::sqrt(r));
+    return {k, -e / (2 * width) * r * k, (-0.5 + 1.25 * e * e * r) * r * k / (width * width)};
+}
+
+/// g: I1 up to trusted_I1, then levelling off.
+Curve length_softening(double length_change) {
+    constexpr double width = softening_width * trusted_I1;
+    const double d = std::max(0.0, length_change - (trusted_I1 - 3));
+    const double q = 1 / std::sqrt(1 + d * d / (width * width));
+    return {3 + length_change - d + d * q, q * q * q, -3 * d * q * q * q * q * q / (width * width)};
+}
+
+} // namespace
+
+Energy law(const Invariants<double>& now, const Moduli& m) {
+    const double change = now.volume_change;
+    const Curve k = area_softening(now.area_change);
+    const Curve g = length_softening(now.length_change);
+    const Curve phi = isochoric_minus_1(change * k.value);
+    const Curve U = volumetric(change * k.value);
+    const double half = m.mu / 2;
+    const double p = half * phi.slope * g.value + m.bulk * U.slope; // dW / dJ'
+    const double pp = half * phi.curvature * g.value + m.bulk * U.curvature;
+    const double dJ = k.value; // dJ' / dJ
+    const double dI2 = change * k.slope;
+    Energy energy;
+    energy.W = half * (now.length_change + phi.value * g.value) + m.bulk * U.value;
+    energy.J = p * dJ;
+    energy.I1 = half * (1 + phi.value * g.slope);
+    energy.I2 = p * dI2;
+    energy.JJ = pp * dJ * dJ;
+    energy.JI1 = half * phi.slope * g.slope * dJ;
+    energy.JI2 = pp * dJ * dI2 + p * k.slope;
+    energy.I1I1 = half * phi.value * g.curvature;
+    energy.I1I2 = half * phi.slope * g.slope * dI2;
+    energy.I2I2 = pp * dI2 * dI2 + p * change * k.curvature;
+    return energy;
+}
+
+} // namespace resect
