@@ -86,6 +86,8 @@ void measure_elements(Cutter& cutter) {
     for (const Tet& tet : elements.tets) {
         cutter.element_volume.push_back(signed_volume(elements, tet));
     }
+    cutter.mean_volume = std::accumulate(cutter.element_volume.begin(), cutter.element_volume.end(), 0.0) /
+                         static_cast<double>(cutter.element_volume.size());
     Box box = {elements.nodes.front(), elements.nodes.front()};
     for (const Vec3& p : elements.nodes) {
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -112,6 +112,7 @@ struct Cutter {
     std::vector<double> element_volume = {}; // [element] m^3
     std::vector<double> element_fill = {};   // [element] share that was material at creation
     double initial_volume = 0;               // m^3, of the material at creation
+    double mean_volume = 0;                  // m^3, of an element
     double unit = 1;                         // m, of the integer grid
     double grain = 0;                        // m, the largest of the material
 

@@ -21,6 +21,9 @@ void bisect_separated(Cutter& cutter, Blade& blade);
 /// Drops the links across the sheet and splits the vertices whose star fell apart.
 void tear_sheet(Cutter& cutter, Blade& blade, CutReport& report);
 
+/// Links parts that tear_sheet tore off and that are too small to be meant, each through one face again.
+void glue_crumbs(Cutter& cutter, CutReport& report);
+
 /// Copies, nodes and weights anew around torn faces.
 void derive_simulation(Cutter& cutter, Delta& delta, CutReport& report);
 

@@ -153,6 +153,7 @@ void tear_sheet(Cutter& cutter, Blade& blade, CutReport& report) {
     cutter.scratch.torn.clear();
     tear_plain_faces(cutter, blade, report);
     tear_flat_clusters(cutter, blade, report);
+    glue_crumbs(cutter, report);
     part_torn_vertices(cutter);
 }
 

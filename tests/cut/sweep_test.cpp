@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strokes.hpp"
+
+namespace resect {
+namespace {
+
+double draw(std::mt19937& random, double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+Vec3 draw_vector(std::mt19937& random, double low, double high) {
+    const double x = draw(random, low, high);
+    const double y = draw(random, low, high);
+    return {x, y, draw(random, low, high)};
+}
+
+/// Tissue that waves while it is cut.
+Motion3 draw_waves(std::mt19937& random, double least, double most) {
+    const double size = draw(random, least, most);
+    const double pace = draw(random, 2, 9);
+    const double phase = draw(random, 0, 6);
+    return [=](Vec3 p, double t) {
+        return p + size * Vec3{std::sin(3 * p[1] + pace * t + phase), std::sin(4 * p[2] + pace * t),
+                               std::cos(3 * p[0] - pace * t + phase)};
+    };
+}
+
+Edge around(const Vec3& centre, const Vec3& along, double reach) {
+    return {centre + reach * direction(along), centre - reach * direction(along)};
+}
+
+TEST_CASE("a curved sweep of a turning blade through waving tissue leaves two pieces") {
+    std::mt19937 random(1234);
+    for (int trial = 0; trial < 60; ++trial) {
+        const int n = 4 + trial % 3;
+        const CutterPtr cutter = cutter_of(make_cube(n, 0.2, unsigned(trial)));
+        const Motion3 waves = draw_waves(random, 0.02, 0.10);
+        const double a0 = draw(random, -0.5, 0.5);
+        const double a1 = draw(random, -0.5, 0.5);
+        const double b0 = draw(random, -0.4, 0.4);
+        const double b1 = draw(random, -0.4, 0.4);
+        const double h0 = draw(random, 0.4, 0.6);
+        const double h1 = draw(random, 0.4, 0.6);
+        const Poses poses = [=](double t) {
+            const double a = a0 + (a1 - a0) * t;
+            const double b = b0 + (b1 - b0) * t;
+            return around({-1 + 3 * t, 0.5, h0 + (h1 - h0) * t},
+                          {std::sin(a), std::cos(a) * std::cos(b), std::sin(b)}, 5);
+        };
+        stroke(*cutter, poses, 8 + trial % 7 * 40, waves);
+        CAPTURE(trial);
+        CHECK(find_broken_invariant(*cutter) == "");
+        CHECK(pieces_of(*cutter).size() == 2);
+    }
+}
+
+struct Planes {
+    std::vector<Vec3> normal, point;
+    std::size_t cells = 0; // of the unit cube
+    double smallest = 1;   // volume of the smallest
+};
+
+/// Counts the cells of the unit cube by their sign vectors at random points.
+void count_cells(Planes& planes, std::mt19937& random) {
+    constexpr int samples = 50000;
+    std::vector<int> hits(std::size_t{1} << planes.normal.size(), 0);
+    for (int s = 0; s < samples; ++s) {
+        const Vec3 p = draw_vector(random, 0, 1);
+        std::size_t signs = 0;
+        for (std::size_t i = 0; i < planes.normal.size(); ++i) {
+            signs |= std::size_t{dot(p - planes.point[i], planes.normal[i]) > 0} << i;
+        }
+        ++hits[signs];
+    }
+    for (const int count : hits) {
+        if (count == 0) { continue; }
+        ++planes.cells;
+        planes.smallest = std::min(planes.smallest, double(count) / samples);
+    }
+}
+
+Planes draw_planes(std::mt19937& random, int count, double least_volume) {
+    for (;;) {
+        Planes planes;
+        for (int i = 0; i < count; ++i) {
+            planes.normal.push_back(direction(draw_vector(random, -1, 1)));
+            planes.point.push_back(draw_vector(random, 0.3, 0.7));
+        }
+        count_cells(planes, random);
+        if (planes.smallest >= least_volume) { return planes; }
+    }
+}
+
+TEST_CASE("planes cut a block into as many pieces as they have sign vectors") {
+    std::mt19937 random(99);
+    for (int trial = 0; trial < 40; ++trial) {
+        const int n = 3 + trial % 4;
+        const Planes planes = draw_planes(random, 1 + trial % 5, 0.5 / (6 * n * n * n));
+        const CutterPtr cutter = cutter_of(make_cube(n, 0.2, unsigned(trial)));
+        for (std::size_t i = 0; i < planes.normal.size(); ++i) {
+            stroke(*cutter, plane_poses(planes.normal[i], planes.point[i], draw_vector(random, -1, 1)), 40);
+        }
+        CAPTURE(trial);
+        CHECK(find_broken_invariant(*cutter) == "");
+        CHECK(pieces_of(*cutter).size() == planes.cells);
+    }
+}
+
+TEST_CASE("a hundred random strokes through waving tissue break no invariant") {
+    std::mt19937 random(7);
+    for (int body = 0; body < 10; ++body) {
+        const CutterPtr cutter = cutter_of(make_cube(3 + body % 3, 0.2, unsigned(body)));
+        const Motion3 waves = draw_waves(random, 0, 0.08);
+        for (int s = 0; s < 10; ++s) {
+            const Vec3 from = draw_vector(random, -0.3, 1.3);
+            const Vec3 to = draw_vector(random, -0.3, 1.3);
+            const Vec3 along = direction(draw_vector(random, -1, 1));
+            const Vec3 turn = draw_vector(random, -0.4, 0.4);
+            const double reach = draw(random, 0.05, 0.75);
+            stroke(
+                *cutter, [&](double t) { return around(from + t * (to - from), along + t * turn, reach); },
+                15, waves);
+            CAPTURE(body);
+            CAPTURE(s);
+            REQUIRE(find_broken_invariant(*cutter) == "");
+        }
+        double least = 1;
+        for (const double weight : cutter->mesh.copy_weight) {
+            least = std::min(least, weight);
+        }
+        CHECK(least > 0);
+    }
+}
+
+TEST_CASE("a half cut leaves one piece with an open sheet") {
+    const CutterPtr cutter = cutter_of(make_cube(6, 0.2, 3));
+    const CutReport report = stroke(
+        *cutter,
+        [](double t) {
+            return Edge{{0.53, -0.2 + 0.7 * t, 2}, {0.53, -0.2 + 0.7 * t, -1}};
+        },
+        40);
+    CHECK(find_broken_invariant(*cutter) == "");
+    CHECK(pieces_of(*cutter).size() == 1);
+    CHECK(report.area > 0.35);
+    CHECK(report.area < 0.6);
+    CHECK(report.copies_added > 0);
+    CHECK(report.elements_cut == report.copies_added);
+}
+
+TEST_CASE("the same stroke in 10 and in 100 increments gives the same pieces") {
+    std::vector<std::vector<Piece>> pieces;
+    for (const int increments : {10, 100}) {
+        const CutterPtr cutter = cutter_of(make_cube(5, 0.2, 4));
+        stroke(*cutter, plane_poses({0.2, 1, 0.3}, {0.5, 0.45, 0.5}, {1, 0, 0}), increments);
+        stroke(*cutter, plane_poses({1, 0.1, 0.3}, {0.45, 0.5, 0.5}, {0, 0, 1}), increments);
+        pieces.push_back(pieces_of(*cutter));
+    }
+    REQUIRE(pieces[0].size() == 4);
+    REQUIRE(pieces[1].size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(pieces[0][i].id == pieces[1][i].id);
+        CHECK(std::abs(pieces[0][i].volume - pieces[1][i].volume) < 0.05 / 5);
+    }
+}
+
+TEST_CASE("tissue that falls onto a blade at rest is cut in two") {
+    const CutterPtr cutter = cutter_of(make_cube(5, 0.2, 5));
+    const Edge blade = {{0.52, 2, -0.5}, {0.5, -1, -0.5}};
+    const Motion3 fall = [](Vec3 p, double t) { return p - Vec3{0, 0, 2 * t}; };
+    stroke(
+        *cutter, [&](double) { return blade; }, 50, fall);
+    CHECK(find_broken_invariant(*cutter) == "");
+    CHECK(pieces_of(*cutter).size() == 2);
+}
+
+TEST_CASE("strokes outside the tissue, of no length or of no extent change nothing") {
+    const CutterPtr cutter = cutter_of(make_cube(4, 0.2, 6));
+    const std::uint64_t before = hash_topology(*cutter);
+    stroke(
+        *cutter,
+        [](double t) {
+            return Edge{{2 + t, 0, 2}, {2 + t, 0, -1}};
+        },
+        10);
+    stroke(
+        *cutter,
+        [](double) {
+            return Edge{{0.5, 0.5, 2}, {0.5, 0.5, -1}};
+        },
+        10);
+    stroke(
+        *cutter,
+        [](double t) {
+            return Edge{{0.5, -1 + 3 * t, 3}, {0.5, -1 + 3 * t, 1.5}};
+        },
+        10);
+    CHECK(hash_topology(*cutter) == before);
+
+    place_blade(*cutter, 0, {{0.5, -1, 2}, {0.5, -1, -1}});
+    const CutReport refused = sweep(
+        *cutter,
+        [](double) {
+            return Edge{{0.5, 1, 2}, {0.5, 1, 2}};
+        },
+        2);
+    CHECK(refused.refused == 2);
+    CHECK(refused.reason != "");
+    const CutReport lost = sweep(
+        *cutter,
+        [](double) {
+            return Edge{{NAN, 1, 2}, {0.5, 1, 2}};
+        },
+        3);
+    CHECK(lost.refused == 3);
+    CHECK(hash_topology(*cutter) == before);
+}
+
+TEST_CASE("the same strokes give the same bits, and others do not") {
+    std::vector<std::uint64_t> hashes;
+    for (const double height : {0.5, 0.5, 0.6}) {
+        std::mt19937 random(3);
+        const Motion3 waves = draw_waves(random, 0.05, 0.05);
+        const CutterPtr cutter = cutter_of(make_cube(4, 0.2, 8));
+        stroke(*cutter, plane_poses({0.2, 1, 0.3}, {0.5, height, 0.5}, {1, 0, 0}), 30, waves);
+        hashes.push_back(hash_topology(*cutter));
+    }
+    CHECK(hashes[0] == hashes[1]);
+    CHECK(hashes[0] != hashes[2]);
+}
+
+} // namespace
+} // namespace resect
