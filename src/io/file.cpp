@@ -10,6 +10,8 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "io/refuse.hpp"
+
 namespace resect {
 
 namespace {
@@ -39,20 +41,18 @@ int write_bytes(const std::string& path, std::string_view bytes) {
 
 } // namespace
 
-Result<std::string> read_file(const std::string& path) {
+std::string read_file(const std::string& path) {
     std::error_code ignored;
-    if (fs::is_directory(path, ignored)) { return Error{path + ": is a folder; name a file in it"}; }
+    if (fs::is_directory(path, ignored)) { refuse(path + ": is a folder; name a file in it"); }
     const File file(std::fopen(path.c_str(), "rb"));
-    if (!file) {
-        return Error{fmt::format("{}: cannot be read ({}); check the path", path, std::strerror(errno))};
-    }
+    if (!file) { refuse(fmt::format("{}: cannot be read ({}); check the path", path, std::strerror(errno))); }
     std::string bytes;
     char chunk[65536];
     while (const std::size_t count = std::fread(chunk, 1, sizeof chunk, file.get())) {
         bytes.append(chunk, count);
     }
     if (std::ferror(file.get()) != 0) {
-        return Error{fmt::format("{}: reading it failed ({}); check the disk", path, std::strerror(errno))};
+        refuse(fmt::format("{}: reading it failed ({}); check the disk", path, std::strerror(errno)));
     }
     return bytes;
 }

@@ -8,7 +8,8 @@
 
 namespace resect {
 
-Result<std::string> read_file(const std::string& path);
+/// Throws Refused.
+std::string read_file(const std::string& path);
 
 /// Whole or not at all: the bytes go to a temporary name beside `path`, which is then renamed. What is there
 /// and no regular file (a device, a pipe) is written directly.

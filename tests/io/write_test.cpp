@@ -8,6 +8,7 @@
 
 #include "io/file.hpp"
 #include "io/outcome.hpp"
+#include "io/refuse.hpp"
 #include "io/samples.hpp"
 
 namespace resect {
@@ -33,6 +34,10 @@ struct Folder {
     }
 };
 
+std::string content_of(const std::string& path) {
+    return value_of(read_or_refuse([&] { return read_file(path); }));
+}
+
 void check_written(const Result<void>& result) {
     CHECK_MESSAGE(result, (result ? "" : result.error().message));
 }
@@ -43,7 +48,7 @@ TEST_CASE("a file is written whole and leaves nothing beside it") {
     const Folder folder;
     check_written(write_file(folder / "a", "first"));
     check_written(write_file(folder / "a", "second"));
-    CHECK(value_of(read_file(folder / "a")) == "second");
+    CHECK(content_of(folder / "a") == "second");
     CHECK(folder.names() == std::vector<std::string>{"a"});
 }
 
@@ -53,7 +58,7 @@ TEST_CASE("a link is followed, not replaced") {
     fs::create_symlink("a", folder / "link");
     check_written(write_file(folder / "link", "second"));
     CHECK(fs::is_symlink(folder / "link"));
-    CHECK(value_of(read_file(folder / "a")) == "second");
+    CHECK(content_of(folder / "a") == "second");
 }
 
 TEST_CASE("a device is written to, not replaced") {
@@ -68,8 +73,10 @@ TEST_CASE("what cannot be written or read is refused in one line that names it")
     CHECK(refusal_of(write_file(folder / "none/a", "x")).find("its folder does not exist") !=
           std::string::npos);
     CHECK(refusal_of(write_file(folder.path, "x")) == folder.path + ": is a folder; name a file in it");
-    CHECK(refusal_of(read_file(folder.path)) == folder.path + ": is a folder; name a file in it");
-    CHECK(refusal_of(read_file(folder / "none")).find("check the path") != std::string::npos);
+    CHECK(refusal_of(read_or_refuse([&] { return read_file(folder.path); })) ==
+          folder.path + ": is a folder; name a file in it");
+    CHECK(refusal_of(read_or_refuse([&] { return read_file(folder / "none"); })).find("check the path") !=
+          std::string::npos);
     CHECK(folder.names().empty());
 }
 
@@ -83,7 +90,7 @@ TEST_CASE("an ending that is not ours is refused with those that are") {
 TEST_CASE("OBJ holds the shortest digits that give the same floats") {
     const Folder folder;
     check_written(write_surface(folder / "a.obj", SampleSurface().view()));
-    CHECK(value_of(read_file(folder / "a.obj")) ==
+    CHECK(content_of(folder / "a.obj") ==
           "v 0.1 0 1e-20\nv 0.33333334 0 0\nv 0 -3333333200 0\nv 0 0 5592405.5\n"
           "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
 }
@@ -92,7 +99,7 @@ TEST_CASE("STL holds a normal and three corners a triangle") {
     const Folder folder;
     SampleSurface surface;
     check_written(write_rest_surface(folder / "a.stl", surface.view()));
-    const std::string bytes = value_of(read_file(folder / "a.stl"));
+    const std::string bytes = content_of(folder / "a.stl");
     REQUIRE(bytes.size() == 84 + 4 * 50);
     std::uint32_t count = 0;
     std::memcpy(&count, &bytes[80], 4);
