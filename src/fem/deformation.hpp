@@ -101,7 +101,7 @@ inline Matrix3<double> stress(const Deformation<double>& at, const Energy& energ
     for (int i = 0; i < 3; ++i) {
         F.at[i][i] += 1;
     }
-    const double by_F = 2 * energy.I1 + 2 * energy.I2 * (3 + at.now.length_change);
+    const double along_f = 2 * energy.I1 + 2 * energy.I2 * (3 + at.now.length_change);
     Matrix3<double> P = {};
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
@@ -111,7 +111,7 @@ inline Matrix3<double> stress(const Deformation<double>& at, const Energy& energ
                     F.at[i][0] * F.at[k][0] + F.at[i][1] * F.at[k][1] + F.at[i][2] * F.at[k][2];
                 cubic += along * F.at[k][j];
             }
-            P.at[i][j] = by_F * F.at[i][j] + energy.J * at.cof.at[i][j] - 2 * energy.I2 * cubic;
+            P.at[i][j] = along_f * F.at[i][j] + energy.J * at.cof.at[i][j] - 2 * energy.I2 * cubic;
         }
         P.at[i][i] += energy.J;
     }

@@ -10,9 +10,9 @@
 //
 //   W = mu/2 (I1 - 3 + (phi(J') - 1) g(I1)) + U(J'),   J' = 1 + (J - 1) k(I2)
 //
-// where k takes |cof F| out, g takes I1 out, and phi goes on below trusted_J with a curvature that fades,
-// while U grows a cubic and then quadratic wall that pushes inverted elements back. Widths and the wall's
-// height were found by trial (docs/method.md).
+// where k takes |cof F| out, g takes I1 out, and phi goes on below trusted_volume with a curvature that
+// fades, while U grows a cubic and then quadratic wall that pushes inverted elements back. Widths and the
+// wall's height were found by trial (docs/method.md).
 namespace resect {
 namespace {
 
@@ -27,7 +27,7 @@ struct Curve {
 
 /// phi - 1: J^(-2/3), then a cubic whose curvature falls to zero over fade_width, then its tangent.
 Curve isochoric_minus_1(double change) {
-    constexpr double J0 = trusted_J;
+    constexpr double J0 = trusted_volume;
     if (1 + change >= J0) {
         const double excess = std::expm1(std::log1p(change) * (-2.0 / 3));
         const double slope = -2.0 / 3 * (1 + excess) / (1 + change);
@@ -44,9 +44,9 @@ Curve isochoric_minus_1(double change) {
     return {value, slope, d < in ? 0 : curvature0 * (1 + in / fade_width)};
 }
 
-/// U / K: (J' - 1)^2 / 2 and the wall below trusted_J.
+/// U / K: (J' - 1)^2 / 2 and the wall below trusted_volume.
 Curve volumetric(double change) {
-    constexpr double J0 = trusted_J;
+    constexpr double J0 = trusted_volume;
     const double m = std::max(0.0, J0 - 1 - change);
     const double in = std::min(m, J0); // the cubic's share; the rest lies below J' = 0
     const double out = m - in;
@@ -54,20 +54,20 @@ Curve volumetric(double change) {
             change - wall * (in * in / (2 * J0) + out), 1 + wall * in / J0};
 }
 
-/// k: 1 up to trusted_I2, then falling like I2^(-1/2).
+/// k: 1 up to trusted_area, then falling like I2^(-1/2).
 Curve area_softening(double area_change) {
-    constexpr double width = softening_width * trusted_I2;
-    const double e = (area_change - (trusted_I2 - 3)) / width;
+    constexpr double width = softening_width * trusted_area;
+    const double e = (area_change - (trusted_area - 3)) / width;
     if (!(e > 0)) { return {1, 0, 0}; }
     const double r = 1 / (1 + e * e);
     const double k = std::sqrt(std::sqrt(r));
     return {k, -e / (2 * width) * r * k, (-0.5 + 1.25 * e * e * r) * r * k / (width * width)};
 }
 
-/// g: I1 up to trusted_I1, then levelling off.
+/// g: I1 up to trusted_length, then levelling off.
 Curve length_softening(double length_change) {
-    constexpr double width = softening_width * trusted_I1;
-    const double d = std::max(0.0, length_change - (trusted_I1 - 3));
+    constexpr double width = softening_width * trusted_length;
+    const double d = std::max(0.0, length_change - (trusted_length - 3));
     const double q = 1 / std::sqrt(1 + d * d / (width * width));
     return {3 + length_change - d + d * q, q * q * q, -3 * d * q * q * q * q * q / (width * width)};
 }
@@ -83,19 +83,19 @@ Energy law(const Invariants<double>& now, const Moduli& m) {
     const double half = m.mu / 2;
     const double p = half * phi.slope * g.value + m.bulk * U.slope; // dW / dJ'
     const double pp = half * phi.curvature * g.value + m.bulk * U.curvature;
-    const double dJ = k.value; // dJ' / dJ
-    const double dI2 = change * k.slope;
+    const double by_j = k.value; // dJ' / dJ
+    const double by_i2 = change * k.slope;
     Energy energy;
     energy.W = half * (now.length_change + phi.value * g.value) + m.bulk * U.value;
-    energy.J = p * dJ;
+    energy.J = p * by_j;
     energy.I1 = half * (1 + phi.value * g.slope);
-    energy.I2 = p * dI2;
-    energy.JJ = pp * dJ * dJ;
-    energy.JI1 = half * phi.slope * g.slope * dJ;
-    energy.JI2 = pp * dJ * dI2 + p * k.slope;
-    energy.I1I1 = half * phi.value * g.curvature;
-    energy.I1I2 = half * phi.slope * g.slope * dI2;
-    energy.I2I2 = pp * dI2 * dI2 + p * change * k.curvature;
+    energy.I2 = p * by_i2;
+    energy.d2_jj = pp * by_j * by_j;
+    energy.d2_ji1 = half * phi.slope * g.slope * by_j;
+    energy.d2_ji2 = pp * by_j * by_i2 + p * k.slope;
+    energy.d2_i1i1 = half * phi.value * g.curvature;
+    energy.d2_i1i2 = half * phi.slope * g.slope * by_i2;
+    energy.d2_i2i2 = pp * by_i2 * by_i2 + p * change * k.curvature;
     return energy;
 }
 

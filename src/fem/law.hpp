@@ -20,9 +20,9 @@ inline Moduli moduli(const Material& material) {
 }
 
 /// Where the law is exactly neo-Hookean.
-inline constexpr double trusted_J = 0.6;   // and above
-inline constexpr double trusted_I1 = 10.5; // and below; uniaxial tension at nu 0.35 reaches it at 3.1
-inline constexpr double trusted_I2 = 11;   // and below; I2 = |cof F|^2
+inline constexpr double trusted_volume = 0.6;  // J, and above
+inline constexpr double trusted_length = 10.5; // I1, and below; uniaxial tension at nu 0.35 reaches it at 3.1
+inline constexpr double trusted_area = 11;     // I2 = |cof F|^2, and below
 
 /// F as the law sees it, in differences from rest, which float holds to its relative precision where strain
 /// is small.
@@ -35,9 +35,9 @@ struct Invariants {
 
 template <class T>
 bool is_trusted(const Invariants<T>& now) {
-    return (now.volume_change >= static_cast<T>(trusted_J - 1)) &
-           (now.length_change <= static_cast<T>(trusted_I1 - 3)) &
-           (now.area_change <= static_cast<T>(trusted_I2 - 3));
+    return (now.volume_change >= static_cast<T>(trusted_volume - 1)) &
+           (now.length_change <= static_cast<T>(trusted_length - 3)) &
+           (now.area_change <= static_cast<T>(trusted_area - 3));
 }
 
 /// x^(-1/3) for finite positive x, relative error below 1e-7. The exponent is divided by three in the bits of
@@ -61,7 +61,7 @@ struct Coefficients {
 
 /// In the trusted range; finite anywhere.
 inline Coefficients trusted_law(const Invariants<float>& now, float mu, float bulk) {
-    constexpr auto least = static_cast<float>(trusted_J);
+    constexpr auto least = static_cast<float>(trusted_volume);
     const float J = 1 + now.volume_change;
     const float r = inverse_cube_root(J > least ? J : least);
     const float phi = r * r;
@@ -74,7 +74,7 @@ inline Coefficients trusted_law(const Invariants<float>& now, float mu, float bu
 struct Energy {
     double W = 0;
     double J = 0, I1 = 0, I2 = 0;
-    double JJ = 0, JI1 = 0, JI2 = 0, I1I1 = 0, I1I2 = 0, I2I2 = 0;
+    double d2_jj = 0, d2_ji1 = 0, d2_ji2 = 0, d2_i1i1 = 0, d2_i1i2 = 0, d2_i2i2 = 0;
 };
 
 /// Everywhere, inverted states included.

@@ -62,16 +62,16 @@ TangentBound bound_tangent(const Stretches& stretches, const Moduli& m) {
     const double I1 = dot(l, l);
     const double n2 = dot(n, n);
     const Energy W = law({stretches.J - 1, I1 - 3, n2 - 3}, m);
-    const double along = 12 * W.JI1 * stretches.J / n2 + 3 * W.J * stretches.J * I1 / (n2 * n2);
-    const double share = n2 > 0 ? std::max(0.0, W.JJ + along) : 0.0;
+    const double along = 12 * W.d2_ji1 * stretches.J / n2 + 3 * W.J * stretches.J * I1 / (n2 * n2);
+    const double share = n2 > 0 ? std::max(0.0, W.d2_jj + along) : 0.0;
 
     // Gradients of J, I1 and I2 by l are n, 2 l and q.
     const Vec3 q = {2 * l[0] * (I1 - l[0] * l[0]), 2 * l[1] * (I1 - l[1] * l[1]),
                     2 * l[2] * (I1 - l[2] * l[2])};
     const auto curvature = [&](std::size_t i, std::size_t j) {
-        return (W.JJ - share) * n[i] * n[j] + 2 * W.JI1 * (n[i] * l[j] + l[i] * n[j]) +
-               W.JI2 * (n[i] * q[j] + q[i] * n[j]) + 4 * W.I1I1 * l[i] * l[j] +
-               2 * W.I1I2 * (l[i] * q[j] + q[i] * l[j]) + W.I2I2 * q[i] * q[j];
+        return (W.d2_jj - share) * n[i] * n[j] + 2 * W.d2_ji1 * (n[i] * l[j] + l[i] * n[j]) +
+               W.d2_ji2 * (n[i] * q[j] + q[i] * n[j]) + 4 * W.d2_i1i1 * l[i] * l[j] +
+               2 * W.d2_i1i2 * (l[i] * q[j] + q[i] * l[j]) + W.d2_i2i2 * q[i] * q[j];
     };
     const auto on = [&](std::size_t i) { return curvature(i, i) + 2 * W.I1 + 2 * W.I2 * (I1 - l[i] * l[i]); };
     const auto off = [&](std::size_t i, std::size_t j, std::size_t k) {
