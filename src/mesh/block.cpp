@@ -39,20 +39,22 @@ Cell step(Cell cell, std::size_t axis, Index by = 1) {
     return cell;
 }
 
+/// The lowest corner of a cell, `shift` cells further along each axis.
+Vec3 point_of(const Grid& grid, const Cell& at, double shift) {
+    Vec3 p = {};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        p[axis] = grid.size[axis] * (at[axis] + shift) / grid.cells[axis];
+    }
+    return p;
+}
+
 void append_corners(const Grid& grid, TetMesh& mesh) {
-    const auto& [size, cells] = grid;
-    for_each_cell({cells[0] + 1, cells[1] + 1, cells[2] + 1}, [&](const Cell& at) {
-        mesh.nodes.push_back(
-            {size[0] * at[0] / cells[0], size[1] * at[1] / cells[1], size[2] * at[2] / cells[2]});
-    });
+    const auto append = [&](const Cell& at) { mesh.nodes.push_back(point_of(grid, at, 0)); };
+    for_each_cell({grid.cells[0] + 1, grid.cells[1] + 1, grid.cells[2] + 1}, append);
 }
 
 void append_centres(const Grid& grid, TetMesh& mesh) {
-    const auto& [size, cells] = grid;
-    for_each_cell(cells, [&](const Cell& at) {
-        mesh.nodes.push_back({size[0] * (at[0] + 0.5) / cells[0], size[1] * (at[1] + 0.5) / cells[1],
-                              size[2] * (at[2] + 0.5) / cells[2]});
-    });
+    for_each_cell(grid.cells, [&](const Cell& at) { mesh.nodes.push_back(point_of(grid, at, 0.5)); });
 }
 
 /// Kuhn's six tets: paths from the lowest to the highest corner, one for each order of the axes. An odd order

@@ -39,10 +39,11 @@ Vec3 LatticeGrid::position(Index point) const {
     const Index n = is_corner ? 1 : 0;
     const Index rank = is_corner ? point : point - corner_count();
     const double shift = is_corner ? 0 : 0.5;
-    const Index row_length = cells[0] + n;
-    const Index column = rank / row_length;
-    return origin + spacing * Vec3{rank % row_length + shift, column % (cells[1] + n) + shift,
-                                   column / (cells[1] + n) + shift};
+    const Index x = rank % (cells[0] + n);
+    const Index column = rank / (cells[0] + n);
+    const Index y = column % (cells[1] + n);
+    const Index z = column / (cells[1] + n);
+    return origin + spacing * Vec3{x + shift, y + shift, z + shift};
 }
 
 Fault make_lattice_grid(const Box& bounds, const LatticePlan& plan, LatticeGrid& grid) {

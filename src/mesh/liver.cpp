@@ -30,8 +30,8 @@ double hilum(const Vec3& p) {
 
 /// A lattice that gives exactly so many elements, found by find_lattice_body's search with tolerance 0.
 struct Preset {
-    Index elements;
-    LatticePlan plan;
+    Index elements = 0;
+    LatticePlan plan = {};
 };
 
 constexpr Index paper_elements = 6097; // the liver of the paper

@@ -4,21 +4,15 @@
 #include <doctest/doctest.h>
 #include <limits>
 
-#include "mesh/adjacency.hpp"
+#include "base/index.hpp"
 #include "mesh/made.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/tet.hpp"
 #include "mesh/validate.hpp"
 
 using namespace resect;
 
 namespace {
-
-double total_volume(const TetMesh& mesh) {
-    double sum = 0;
-    for (const Tet& tet : mesh.tets) {
-        sum += signed_volume(mesh, tet);
-    }
-    return sum;
-}
 
 Index corner_row(Index x, Index y, Index z, std::array<Index, 3> cells) {
     return x + (cells[0] + 1) * (y + (cells[1] + 1) * z);
@@ -26,40 +20,47 @@ Index corner_row(Index x, Index y, Index z, std::array<Index, 3> cells) {
 
 } // namespace
 
-TEST_CASE("a Kuhn block numbers nodes x fastest and its tets by the order of the axes") {
-    const std::array<Index, 3> cells = {3, 2, 2};
-    const Body block = made(make_block({0.3, 0.2, 0.1}, cells));
-    CHECK(block.elements.nodes.size() == 36);
-    REQUIRE(block.elements.tets.size() == 72);
-    const Vec3 node = block.elements.nodes[row(corner_row(1, 2, 1, cells))];
-    CHECK(node[0] == doctest::Approx(0.1));
-    CHECK(node[1] == doctest::Approx(0.2));
-    CHECK(node[2] == doctest::Approx(0.05));
-    const auto at = [&](Index x, Index y, Index z) { return corner_row(x, y, z, cells); };
-    // The first cell: +x +y +z, +x +z +y with the last two swapped, and so on.
-    CHECK(block.elements.tets[0] == Tet{at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(1, 1, 1)});
-    CHECK(block.elements.tets[1] == Tet{at(0, 0, 0), at(1, 0, 0), at(1, 1, 1), at(1, 0, 1)});
-    CHECK(block.elements.tets[2] == Tet{at(0, 0, 0), at(0, 1, 0), at(1, 1, 1), at(1, 1, 0)});
-    CHECK(block.elements.tets[3] == Tet{at(0, 0, 0), at(0, 1, 0), at(0, 1, 1), at(1, 1, 1)});
-    CHECK(block.elements.tets[4] == Tet{at(0, 0, 0), at(0, 0, 1), at(1, 0, 1), at(1, 1, 1)});
-    CHECK(block.elements.tets[5] == Tet{at(0, 0, 0), at(0, 0, 1), at(1, 1, 1), at(0, 1, 1)});
-    // The second cell is the next along x.
-    CHECK(block.elements.tets[6][0] == at(1, 0, 0));
+TEST_CASE("a Kuhn block numbers its nodes x fastest, then y, then z") {
+    const Body block = made(make_block({0.3, 0.2, 0.1}, {3, 2, 2}));
+    REQUIRE(block.elements.nodes.size() == 36);
+    const Vec3& node = block.elements.nodes[row(corner_row(1, 2, 1, {3, 2, 2}))];
+    CHECK(length(node - Vec3{0.1, 0.2, 0.05}) < 1e-15);
 }
 
-TEST_CASE("blocks of both splits are whole, valid and of the right volume") {
+TEST_CASE("a Kuhn block orders the six tets of a cell by the order of the axes") {
+    const std::array<Index, 3> cells = {3, 2, 2};
+    const Body block = made(make_block({0.3, 0.2, 0.1}, cells));
+    REQUIRE(block.elements.tets.size() == 72);
+    const auto at = [&](Index x, Index y, Index z) { return corner_row(x, y, z, cells); };
+    // The first cell's, in which odd orders have their last two corners swapped; the next cell lies along x.
+    const std::vector<Tet> expected = {{at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(1, 1, 1)},
+                                       {at(0, 0, 0), at(1, 0, 0), at(1, 1, 1), at(1, 0, 1)},
+                                       {at(0, 0, 0), at(0, 1, 0), at(1, 1, 1), at(1, 1, 0)},
+                                       {at(0, 0, 0), at(0, 1, 0), at(0, 1, 1), at(1, 1, 1)},
+                                       {at(0, 0, 0), at(0, 0, 1), at(1, 0, 1), at(1, 1, 1)},
+                                       {at(0, 0, 0), at(0, 0, 1), at(1, 1, 1), at(0, 1, 1)},
+                                       {at(1, 0, 0), at(2, 0, 0), at(2, 1, 0), at(2, 1, 1)}};
+    CHECK(std::equal(expected.begin(), expected.end(), block.elements.tets.begin()));
+}
+
+TEST_CASE("blocks of both splits are valid meshes of conforming elements") {
     for (const Split split : {Split::six, Split::bcc}) {
         CAPTURE(static_cast<int>(split));
         Body block = made(make_block({0.2, 0.05, 0.1}, {4, 3, 5}, split));
-        const auto notes = mend_and_validate(block.elements);
-        REQUIRE(notes);
-        CHECK(notes->empty());
+        CHECK(made(mend_and_validate(block.elements)).empty());
         CHECK(block.material.tets.empty());
         CHECK(block.lattice_spacing == 0);
-        CHECK(total_volume(block.elements) == doctest::Approx(0.001).epsilon(1e-12));
-        const auto mates = build_face_mates(block.elements);
-        CHECK(build_components(mates).sizes.size() == 1);
-        CHECK(build_boundary(block.elements, mates).size() == 2 * 2 * (4 * 3 + 3 * 5 + 5 * 4));
+    }
+}
+
+TEST_CASE("blocks of both splits are whole, of the right volume, and two triangles a boundary face") {
+    for (const Split split : {Split::six, Split::bcc}) {
+        CAPTURE(static_cast<int>(split));
+        const Body block = made(make_block({0.2, 0.05, 0.1}, {4, 3, 5}, split));
+        const MeshInfo info = measure_body(block);
+        CHECK(info.volume == doctest::Approx(0.001).epsilon(1e-12));
+        CHECK(info.components == 1);
+        CHECK(info.boundary_triangles == 2 * 2 * (4 * 3 + 3 * 5 + 5 * 4));
     }
 }
 

@@ -20,10 +20,11 @@ std::string refusal_of(const Result<T>& result) {
     return result ? std::string{} : result.error().message;
 }
 
-/// The body that was to be made; a refusal ends the tests with its line.
-inline Body made(Result<Body> result) {
+/// What was to be made; a refusal ends the tests with its line.
+template <class T>
+T made(Result<T> result) {
     if (!result) {
-        std::fprintf(stderr, "a body that a test needs was refused: %s\n", result.error().message.c_str());
+        std::fprintf(stderr, "what a test needs was refused: %s\n", result.error().message.c_str());
         std::abort();
     }
     return std::move(*result);

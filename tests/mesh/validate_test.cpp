@@ -24,9 +24,8 @@ bool says(const std::string& text, const char* part) { return text.find(part) !=
 TEST_CASE("a good mesh is accepted without notes and left as it is") {
     TetMesh mesh = small_block();
     const auto tets = mesh.tets;
-    const auto notes = mend_and_validate(mesh);
-    REQUIRE(notes);
-    CHECK(notes->empty());
+    const auto notes = made(mend_and_validate(mesh));
+    CHECK(notes.empty());
     CHECK(mesh.tets == tets);
 }
 
@@ -35,10 +34,9 @@ TEST_CASE("a wholly inverted mesh is turned, with a note") {
     for (Tet& tet : mesh.tets) {
         std::swap(tet[0], tet[1]);
     }
-    const auto notes = mend_and_validate(mesh);
-    REQUIRE(notes);
-    REQUIRE(notes->size() == 1);
-    CHECK(says((*notes)[0], "all 48 tets were inverted"));
+    const auto notes = made(mend_and_validate(mesh));
+    REQUIRE(notes.size() == 1);
+    CHECK(says(notes[0], "all 48 tets were inverted"));
     for (const Tet& tet : mesh.tets) {
         CHECK(signed_volume(mesh, tet) > 0);
     }
@@ -120,10 +118,9 @@ TEST_CASE("a tet that shares no face is refused, and larger separate pieces are 
     mesh.tets.push_back({first, first + 1, first + 2, first + 3});
     CHECK(says(refusal(mesh), "tet 48 (nodes 27 28 29 30) is disconnected"));
     mesh.tets.push_back({first, first + 2, first + 1, first + 4});
-    const auto notes = mend_and_validate(mesh);
-    REQUIRE(notes);
-    REQUIRE(notes->size() == 1);
-    CHECK(says((*notes)[0], "2 separate components, of 48, 2 tets"));
+    const auto notes = made(mend_and_validate(mesh));
+    REQUIRE(notes.size() == 1);
+    CHECK(says(notes[0], "2 separate components, of 48, 2 tets"));
 }
 
 TEST_CASE("a single tet is a whole mesh") {
@@ -133,9 +130,8 @@ TEST_CASE("a single tet is a whole mesh") {
 TEST_CASE("nodes of no tet are kept and noted") {
     TetMesh mesh = small_block();
     mesh.nodes.push_back({5, 5, 5});
-    const auto notes = mend_and_validate(mesh);
-    REQUIRE(notes);
-    REQUIRE(notes->size() == 1);
-    CHECK(says((*notes)[0], "1 nodes belong to no tet, first node 27"));
+    const auto notes = made(mend_and_validate(mesh));
+    REQUIRE(notes.size() == 1);
+    CHECK(says(notes[0], "1 nodes belong to no tet, first node 27"));
     CHECK(mesh.nodes.size() == 28);
 }
