@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "cut/homes.hpp"
@@ -147,7 +148,9 @@ Problem link_faces(MaterialMesh& material) {
     struct Face {
         std::array<Index, 3> vertex;
         Index link;
-        auto operator<=>(const Face&) const = default;
+        bool operator<(const Face& other) const {
+            return vertex != other.vertex ? vertex < other.vertex : link < other.link;
+        }
     };
     std::vector<Face> faces;
     faces.reserve(4 * material.tets.size());
@@ -212,29 +215,31 @@ Problem find_supports(Cutter& cutter) {
     return {};
 }
 
-/// Faces that lie on a face of their element: none of their vertices needs the opposite corner.
+/// The element's face that holds a face of a tet: none of the three vertices needs the opposite corner.
+std::int8_t find_element_face(const MaterialMesh& material, const MaterialTet& tet, std::size_t k,
+                              const Tet& element) {
+    for (std::size_t face = 0; face < 4; ++face) {
+        double weight = 0;
+        for (std::size_t j = 0; j < 4; ++j) {
+            if (j != k) { weight += weight_of(material.support[row(tet.vertex[j])], element[face]); }
+        }
+        if (weight == 0) { return static_cast<std::int8_t>(face); }
+    }
+    return -1;
+}
+
 Problem find_element_faces(Cutter& cutter) {
     MaterialMesh& material = cutter.material;
-    for (MaterialTet& tet : material.tets) {
-        const Tet& element = cutter.body.elements.tets[row(tet.copy)];
-        for (std::size_t face = 0; face < 4; ++face) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                double weight = 0;
-                for (std::size_t j = 0; j < 4; ++j) {
-                    if (j != k) { weight += weight_of(material.support[row(tet.vertex[j])], element[face]); }
-                }
-                if (weight == 0) { tet.element_face[k] = static_cast<std::int8_t>(face); }
-            }
-        }
-    }
     for (Index t = 0; t < material.tet_count(); ++t) {
-        const MaterialTet& tet = material.tet(t);
+        MaterialTet& tet = material.tet(t);
         for (std::size_t k = 0; k < 4; ++k) {
-            if (tet.link[k] < 0 || tet.element_face[k] >= 0) { continue; }
-            if (material.tet(tet_of(tet.link[k])).copy != tet.copy) {
+            tet.element_face[k] =
+                find_element_face(material, tet, k, cutter.body.elements.tets[row(tet.copy)]);
+            const bool leaves = tet.link[k] >= 0 && material.tet(tet_of(tet.link[k])).copy != tet.copy;
+            if (leaves && tet.element_face[k] < 0) {
                 return fmt::format(
-                    "material tets {} and {} share a face inside an element but name two elements: mend "
-                    "element_of",
+                    "material tets {} and {} share a face inside an element but name two elements: "
+                    "mend element_of",
                     t, tet_of(tet.link[k]));
             }
         }
@@ -370,7 +375,9 @@ void make_nodes(Cutter& cutter) {
     const std::vector<Index> label = label_pairs(cutter);
     struct Pair {
         Index reference, label, pair;
-        auto operator<=>(const Pair&) const = default;
+        bool operator<(const Pair& other) const {
+            return std::tie(reference, label, pair) < std::tie(other.reference, other.label, other.pair);
+        }
     };
     std::vector<Pair> pairs;
     pairs.reserve(label.size());

@@ -100,6 +100,7 @@ bool has_blade(const Cutter& cutter, Index blade) {
     return blade >= 0 && row(blade) < cutter.blades.size() && cutter.blades[row(blade)].placed;
 }
 
+// NOLINTNEXTLINE(readability-function-size): one call a step, from one place
 void sweep_blade(Cutter& cutter, Index blade, const Edge& to, std::span<const Vec3f> before,
                  std::span<const Vec3f> after, Delta& delta, CutReport& report) {
     delta = {};

@@ -53,7 +53,9 @@ struct Scratch {
     std::vector<TetFace> torn = {};
     struct Seed {
         Index vertex = 0, tet = 0;
-        auto operator<=>(const Seed&) const = default;
+        bool operator<(const Seed& other) const {
+            return vertex != other.vertex ? vertex < other.vertex : tet < other.tet;
+        }
     };
     std::vector<Seed> seeds = {};
     Marks in_cluster = {}; // tets

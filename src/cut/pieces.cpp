@@ -44,6 +44,7 @@ std::vector<Index> label_components(const Cutter& cutter, std::vector<Component>
 /// The largest part of a piece keeps its id; others count on.
 void assign_ids(std::vector<Component>& components, Index& next_id) {
     std::vector<Component*> order;
+    order.reserve(components.size());
     for (Component& component : components) {
         order.push_back(&component);
     }

@@ -18,11 +18,14 @@ void detect_crossings(Cutter& cutter, Blade& blade, const Sweep& sweep, CutRepor
 /// Bisects the crossed edges of every queued tet that they separate.
 void bisect_separated(Cutter& cutter, Blade& blade);
 
-/// Drops the links across the sheet and splits the vertices whose star fell apart.
+/// Drops the links across the sheet, but not those that would leave crumbs, and splits vertices.
 void tear_sheet(Cutter& cutter, Blade& blade, CutReport& report);
 
 /// Links parts that tear_sheet tore off and that are too small to be meant, each through one face again.
 void glue_crumbs(Cutter& cutter, CutReport& report);
+
+/// Splits the vertices of torn faces whose star fell apart, into however many parts.
+void part_torn_vertices(Cutter& cutter);
 
 /// Copies, nodes and weights anew around torn faces.
 void derive_simulation(Cutter& cutter, Delta& delta, CutReport& report);

@@ -90,7 +90,7 @@ void tear_cluster(Cutter& cutter, const Blade& blade, CutReport& report) {
             const TetFace other = {tet_of(tet.link[k]), face_of(tet.link[k])};
             if (is_flat(blade, cutter.material.tet(other.tet).vertex)) { continue; }
             const std::size_t side = is_on_positive_side(cutter, blade, other) ? 1 : 0;
-            faces[side].push_back({m, k});
+            faces[side].push_back(other);
             area[side] += length(face_normal(cutter.material, m, k));
         }
     }
@@ -128,6 +128,8 @@ void part_star(Cutter& cutter, std::span<const Scratch::Seed> seeds) {
     }
 }
 
+} // namespace
+
 void part_torn_vertices(Cutter& cutter) {
     std::vector<Scratch::Seed>& seeds = cutter.scratch.seeds;
     seeds.clear();
@@ -146,8 +148,6 @@ void part_torn_vertices(Cutter& cutter) {
         begin = end;
     }
 }
-
-} // namespace
 
 void tear_sheet(Cutter& cutter, Blade& blade, CutReport& report) {
     cutter.scratch.torn.clear();

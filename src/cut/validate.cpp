@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <tuple>
 
 #include "cut/homes.hpp"
 #include "cut/partition.hpp"
@@ -233,7 +234,9 @@ std::string check_boundary(const Cutter& cutter) {
     const MaterialMesh& material = cutter.material;
     struct Side {
         Index low, high, turn;
-        auto operator<=>(const Side&) const = default;
+        bool operator<(const Side& other) const {
+            return std::tie(low, high, turn) < std::tie(other.low, other.high, other.turn);
+        }
     };
     std::vector<Side> sides;
     double volume = 0;
