@@ -361,7 +361,7 @@ TEST_CASE("material that does not tile its elements is refused with a reason") {
     twice.elements.tets.push_back(good.elements.tets[0]);
     CHECK(reason(twice, count + 1).find("share a face") != std::string::npos);
     Body lost = good;
-    lost.elements.nodes[3][1] = NAN;
+    lost.elements.nodes[3][1] = std::nan("");
     CHECK(reason(lost, count).find("vertex 3 is not finite") != std::string::npos);
 }
 

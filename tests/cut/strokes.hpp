@@ -90,7 +90,7 @@ inline CutReport sweep(Cutter& cutter, const Poses& poses, int increments, const
 /// The same as a whole stroke.
 inline CutReport stroke(Cutter& cutter, const Poses& poses, int increments, const Motion3& motion = stay) {
     place_blade(cutter, 0, poses(0));
-    const CutReport report = sweep(cutter, poses, increments, motion);
+    CutReport report = sweep(cutter, poses, increments, motion);
     lift_blade(cutter, 0);
     return report;
 }

@@ -209,7 +209,7 @@ TEST_CASE("strokes outside the tissue, of no length or of no extent change nothi
     const CutReport lost = sweep(
         *cutter,
         [](double) {
-            return Edge{{NAN, 1, 2}, {0.5, 1, 2}};
+            return Edge{{std::nan(""), 1, 2}, {0.5, 1, 2}};
         },
         3);
     CHECK(lost.refused == 3);
