@@ -43,8 +43,8 @@ void lift_blade(Cutter& cutter, Index blade);
 bool has_blade(const Cutter& cutter, Index blade);
 
 /// Sweeps a blade to `to` while the nodes move from `before` to `after` (displacements, [node]), cuts the
-/// material that it crosses and derives S anew where that matters. `delta` is what changed in S; sums are
-/// added to `report` (all but pieces).
+/// material that it crosses and derives S anew where that matters. `delta` is overwritten with what changed
+/// in S; sums are added to `report` (all but pieces).
 void sweep_blade(Cutter& cutter, Index blade, const Edge& to, std::span<const Vec3f> before,
                  std::span<const Vec3f> after, Delta& delta, CutReport& report);
 

@@ -62,7 +62,7 @@ struct Scratch {
     std::vector<Index> cluster = {};
 
     // derive
-    std::vector<Index> parted = {}, touched = {}, reweighed = {}; // copies
+    std::vector<Index> parted = {}, touched = {}; // copies
     std::vector<Index> elements = {};
     Marks changed = {};      // copies whose fraction or weight changed
     Marks walked_pairs = {}; // copy and corner

@@ -6,7 +6,7 @@
 namespace resect {
 
 /// The home of a class of (copy, corner) pairs: the material vertex of its copies that is nearest to the
-/// reference node; the lowest of several.
+/// reference node.
 Index find_home(const Cutter& cutter, std::span<const Index> pairs, Index reference);
 
 /// Writes home and hold of a node.
