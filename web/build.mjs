@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bundles the picture page into one HTML file, or, with --tests, each test into one file that Node can run.
+import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { build } from 'esbuild';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const dist = join(here, 'dist');
+mkdirSync(dist, { recursive: true });
+
+async function buildPage() {
+  const result = await build({
+    entryPoints: [join(here, 'src/picture_page.ts')],
+    bundle: true, minify: true, format: 'iife', target: 'es2022', legalComments: 'inline', write: false,
+  });
+  // The script sits inside the page, where these letters would end it.
+  const script = result.outputFiles[0].text.replaceAll('</script', '<\\/script');
+  const page = readFileSync(join(here, 'src/picture.html'), 'utf8');
+  writeFileSync(join(dist, 'picture.html'), page.replace('/* script */', () => script));
+}
+
+async function buildTests() {
+  const tests = join(here, 'test');
+  rmSync(join(dist, 'test'), { recursive: true, force: true });
+  await build({
+    entryPoints: readdirSync(tests).filter((name) => name.endsWith('.test.ts')).map((name) => join(tests, name)),
+    bundle: true, platform: 'node', format: 'esm', target: 'node18', outdir: join(dist, 'test'), outExtension: { '.js': '.mjs' },
+  });
+}
+
+await (process.argv.includes('--tests') ? buildTests() : buildPage());

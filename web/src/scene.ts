@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+import {
+  BufferAttribute, BufferGeometry, CircleGeometry, Color, DirectionalLight, Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, Sphere, Vector3,
+  type Texture,
+} from 'three';
+import { radicalInverse } from './accumulate.ts';
+import { createScalpel } from './scalpel.ts';
+import { createSkyShadow, shadeBySky, type SkyShadow } from './sky_shadow.ts';
+import type { Mesh as TissueMesh } from './split_creases.ts';
+import { createTissueMaterial } from './tissue_material.ts';
+
+const background = new Color(0x0a1219);
+const floorColour = new Color(0x1d464b);
+
+export interface Still {
+  scene: Scene;
+  sky: SkyShadow;
+  /** Moves the lamp to one of many places on its disc, for a soft shadow. */
+  placeLamp(pass: number): void;
+}
+
+export interface StillOptions {
+  mesh: TissueMesh;
+  /** All points that every still of a strip has in common a frame with. */
+  bounds: Sphere;
+  floorHeight: number;
+  blade: { heel: Vector3; tip: Vector3 } | undefined;
+  camera: PerspectiveCamera;
+  environment: Texture;
+}
+
+export function buildStill({ mesh, bounds, floorHeight, blade, camera, environment }: StillOptions): Still {
+  const scene = new Scene();
+  scene.background = background;
+  scene.environment = environment;
+  const tissue = tissueGeometry(mesh);
+  const scalpel = blade && createScalpel(blade.heel, blade.tip, camera.position);
+  const casters = scalpel ? [tissue, scalpel.blade, scalpel.handle] : [tissue];
+  const sky = createSkyShadow(casters, bounds.center, 1.6 * bounds.radius);
+  addBody(scene, tissue, createTissueMaterial(sky, 2 * bounds.radius));
+  if (scalpel) {
+    const steel = new MeshStandardMaterial({ color: 0xc9ced2, metalness: 1, roughness: 0.22 });
+    const grip = new MeshStandardMaterial({ color: 0x8f979c, metalness: 1, roughness: 0.38 });
+    shadeBySky(steel, sky);
+    shadeBySky(grip, sky);
+    addBody(scene, scalpel.blade, steel);
+    addBody(scene, scalpel.handle, grip);
+  }
+  // From below the floor would hide the body.
+  if (camera.position.z > floorHeight) scene.add(createFloor(sky, bounds, floorHeight));
+  return { scene, sky, placeLamp: addLamp(scene, bounds) };
+}
+
+function tissueGeometry(mesh: TissueMesh): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(mesh.position, 3));
+  geometry.setAttribute('normal', new BufferAttribute(mesh.normal, 3));
+  geometry.setAttribute('rest', new BufferAttribute(mesh.rest, 3));
+  geometry.setAttribute('inside', new BufferAttribute(mesh.inside, 1));
+  geometry.setIndex(new BufferAttribute(mesh.index, 1));
+  return geometry;
+}
+
+function addBody(scene: Scene, geometry: BufferGeometry, material: MeshStandardMaterial): void {
+  const body = new Mesh(geometry, material);
+  body.castShadow = body.receiveShadow = true;
+  scene.add(body);
+}
+
+/** A teal drape that runs out into the dark, so that no horizon cuts through the picture. */
+function createFloor(sky: SkyShadow, bounds: Sphere, height: number): Mesh {
+  const material = new MeshStandardMaterial({ color: floorColour, roughness: 0.9 });
+  const uniforms = { floorCentre: { value: bounds.center }, floorReach: { value: bounds.radius }, floorEnd: { value: background } };
+  shadeBySky(material, sky, (shader) => {
+    Object.assign(shader.uniforms, uniforms);
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', '#include <common>\nuniform vec3 floorCentre, floorEnd;\nuniform float floorReach;')
+      .replace('#include <opaque_fragment>', /* glsl */ `
+float away = distance(skyPlace.xy, floorCentre.xy) / floorReach;
+outgoingLight = mix(outgoingLight, floorEnd, smoothstep(0.8, 6.0, away));
+#include <opaque_fragment>`);
+  });
+  const floor = new Mesh(new CircleGeometry(40 * bounds.radius, 96), material);
+  floor.position.set(bounds.center.x, bounds.center.y, height);
+  floor.receiveShadow = true;
+  return floor;
+}
+
+function addLamp(scene: Scene, bounds: Sphere): (pass: number) => void {
+  const lamp = new DirectionalLight(0xfff1e2, 2.1);
+  const reach = 1.7 * bounds.radius;
+  lamp.castShadow = true;
+  lamp.shadow.mapSize.set(2048, 2048);
+  Object.assign(lamp.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 8 * reach });
+  lamp.shadow.normalBias = 0.004 * bounds.radius;
+  lamp.shadow.bias = -0.0004;
+  lamp.target.position.copy(bounds.center);
+  scene.add(lamp, lamp.target);
+  return (pass) => {
+    const turn = 2 * Math.PI * radicalInverse(pass, 2), away = 0.16 * Math.sqrt(radicalInverse(pass, 3));
+    lamp.position.set(0.55 + away * Math.cos(turn), 0.62 + away * Math.sin(turn), 1.15).multiplyScalar(2.6 * bounds.radius).add(bounds.center);
+  };
+}
