@@ -3,13 +3,14 @@ import {
   AdditiveBlending, FloatType, HalfFloatType, Mesh, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, WebGLRenderTarget,
   type PerspectiveCamera, type WebGLRenderer,
 } from 'three';
+import { radicalInverse } from './spread.ts';
 
 const vertexShader = /* glsl */ `varying vec2 at; void main() { at = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 
 /** Very bright glints are held, or one pass alone would leave specks in the mean. */
 const addShader = /* glsl */ `
 uniform sampler2D picture; uniform float weight; varying vec2 at;
-void main() { gl_FragColor = vec4(weight * min(texture2D(picture, at).rgb, vec3(6.0)), 1.0); }`;
+void main() { gl_FragColor = vec4(weight * min(texture2D(picture, at).rgb, vec3(3.0)), 1.0); }`;
 
 /** Dithering keeps the dark background free of bands in eight bits. */
 const showShader = /* glsl */ `
@@ -57,11 +58,4 @@ export function accumulate(renderer: WebGLRenderer, scene: Scene, camera: Perspe
   renderer.setRenderTarget(null);
   renderer.render(flat, flatCamera);
   for (const used of [one, sum, add, show, sheet.geometry]) used.dispose();
-}
-
-/** Halton numbers: every prefix of the sequence is spread evenly over 0 to 1. */
-export function radicalInverse(i: number, base: number): number {
-  let result = 0;
-  for (let part = 1 / base; i > 0; part /= base, i = Math.floor(i / base)) result += part * (i % base);
-  return result;
 }

@@ -4,14 +4,14 @@ import { BackSide, Color, DoubleSide, Mesh, MeshBasicMaterial, PMREMGenerator, P
 /** A dim theatre with a surgical lamp and two soft windows: what wet tissue mirrors. */
 export function createEnvironment(renderer: WebGLRenderer): Texture {
   const scene = new Scene();
-  scene.add(new Mesh(new SphereGeometry(20, 32, 16), new MeshBasicMaterial({ color: new Color(0.16, 0.19, 0.21), side: BackSide })));
-  addLamp(scene, new PlaneGeometry(9, 6), new Vector3(2, 5, 10), new Color(7.5, 7.1, 6.6));
+  scene.add(new Mesh(new SphereGeometry(20, 32, 16), new MeshBasicMaterial({ color: new Color(0.20, 0.23, 0.25), side: BackSide })));
+  addLamp(scene, new PlaneGeometry(6, 4), new Vector3(2, 5, 10), new Color(12, 11.4, 10.6));
   addLamp(scene, new PlaneGeometry(3, 9), new Vector3(-13, 3, 4), new Color(3.2, 3.7, 4.3));
   addLamp(scene, new PlaneGeometry(3, 9), new Vector3(12, -6, 4), new Color(2.6, 2.9, 3.3));
-  addLamp(scene, new PlaneGeometry(12, 3), new Vector3(-2, -12, 6), new Color(2.6, 2.6, 2.6));
-  addLamp(scene, new CircleGeometry(14, 24), new Vector3(0, 0, -12), new Color(0.05, 0.10, 0.11));
+  addLamp(scene, new PlaneGeometry(12, 3), new Vector3(-2, -12, 6), new Color(1.1, 1.15, 1.2));
+  addLamp(scene, new CircleGeometry(14, 24), new Vector3(0, 0, -12), new Color(0.16, 0.22, 0.22));
   const generator = new PMREMGenerator(renderer);
-  const texture = generator.fromScene(scene, 0.015).texture;
+  const texture = generator.fromScene(scene, 0.03).texture;
   generator.dispose();
   return texture;
 }

@@ -10,7 +10,7 @@ import { splitCreases } from './split_creases.ts';
 import type { Surface } from './surface.ts';
 
 /** Eighty-odd edge samples and sky directions per picture: no grain is left, and software rendering stays in seconds. */
-const passes = 20;
+const passes = 14;
 
 /** Draws all stills of the request into the page; throws an Error whose text names the surface and the fault. */
 export function drawPicture(request: PictureRequest): void {

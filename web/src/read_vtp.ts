@@ -107,8 +107,9 @@ function readAppended(file: File, type: string, offset: number): Numbers {
   if (!(begin <= file.bytes.length)) throw new Error('the appended data ends too early; the file is cut short');
   const size = file.headerBytes === 8 ? Number(view.getBigUint64(at, true)) : view.getUint32(at, true);
   if (begin + size > file.bytes.length) throw new Error('the appended data ends too early; the file is cut short');
-  // A slice starts at an aligned address, as typed arrays ask for.
-  const copy = file.bytes.slice(begin, begin + size).buffer;
+  if (size % bytesOf[type] !== 0) throw new Error(`an array of ${size} bytes does not hold whole ${type} numbers; the file is damaged`);
+  // A copy starts at an aligned address, as typed arrays ask for.
+  const copy = new Uint8Array(file.bytes.subarray(begin, begin + size)).buffer;
   switch (type) {
     case 'Float32': return new Float32Array(copy);
     case 'Float64': return new Float64Array(copy);

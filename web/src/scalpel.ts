@@ -53,10 +53,10 @@ function bladeShape(length: number): BufferGeometry {
 }
 
 function handleShape(length: number): BufferGeometry {
-  const long = 0.85 * length, wide = 0.045 * length;
+  const long = 1.05 * length, wide = 0.034 * length;
   const shape = new CapsuleGeometry(wide, long - 2 * wide, 12, 32);
   shape.applyMatrix4(new Matrix4().makeRotationFromQuaternion(new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), Math.PI / 2)));
-  shape.scale(1, 1, 0.45);
-  shape.translate(-long / 2 + 0.5 * wide, wide * 0.95, 0);
+  shape.scale(1, 1, 0.5);
+  shape.translate(-long / 2 + 0.5 * wide, wide * 1.15, 0);
   return shape;
 }

@@ -3,13 +3,13 @@ import {
   BufferAttribute, BufferGeometry, CircleGeometry, Color, DirectionalLight, Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, Sphere, Vector3,
   type Texture,
 } from 'three';
-import { radicalInverse } from './accumulate.ts';
 import { createScalpel } from './scalpel.ts';
 import { createSkyShadow, shadeBySky, type SkyShadow } from './sky_shadow.ts';
 import type { Mesh as TissueMesh } from './split_creases.ts';
+import { radicalInverse } from './spread.ts';
 import { createTissueMaterial } from './tissue_material.ts';
 
-const background = new Color(0x0a1219);
+const background = new Color(0x1c2a32);
 const floorColour = new Color(0x1d464b);
 
 export interface Still {
@@ -39,11 +39,12 @@ export function buildStill({ mesh, bounds, floorHeight, blade, camera, environme
   const sky = createSkyShadow(casters, bounds.center, 1.6 * bounds.radius);
   addBody(scene, tissue, createTissueMaterial(sky, 2 * bounds.radius));
   if (scalpel) {
-    const steel = new MeshStandardMaterial({ color: 0xc9ced2, metalness: 1, roughness: 0.22 });
-    const grip = new MeshStandardMaterial({ color: 0x8f979c, metalness: 1, roughness: 0.38 });
+    const steel = new MeshStandardMaterial({ color: 0xe2e6e8, metalness: 1, roughness: 0.3, envMapIntensity: 1.8 });
+    const grip = new MeshStandardMaterial({ color: 0xb9c0c4, metalness: 1, roughness: 0.42, envMapIntensity: 1.8 });
     shadeBySky(steel, sky);
     shadeBySky(grip, sky);
-    addBody(scene, scalpel.blade, steel);
+    // The blade is thinner than a texel of the lamp's shadow, so that it would only speckle itself.
+    addBody(scene, scalpel.blade, steel).receiveShadow = false;
     addBody(scene, scalpel.handle, grip);
   }
   // From below the floor would hide the body.
@@ -61,10 +62,11 @@ function tissueGeometry(mesh: TissueMesh): BufferGeometry {
   return geometry;
 }
 
-function addBody(scene: Scene, geometry: BufferGeometry, material: MeshStandardMaterial): void {
+function addBody(scene: Scene, geometry: BufferGeometry, material: MeshStandardMaterial): Mesh {
   const body = new Mesh(geometry, material);
   body.castShadow = body.receiveShadow = true;
   scene.add(body);
+  return body;
 }
 
 /** A teal drape that runs out into the dark, so that no horizon cuts through the picture. */
@@ -87,17 +89,18 @@ outgoingLight = mix(outgoingLight, floorEnd, smoothstep(0.8, 6.0, away));
 }
 
 function addLamp(scene: Scene, bounds: Sphere): (pass: number) => void {
-  const lamp = new DirectionalLight(0xfff1e2, 2.1);
+  const lamp = new DirectionalLight(0xfff1e2, 2.6);
   const reach = 1.7 * bounds.radius;
   lamp.castShadow = true;
-  lamp.shadow.mapSize.set(2048, 2048);
+  lamp.shadow.mapSize.set(1024, 1024);
   Object.assign(lamp.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 8 * reach });
   lamp.shadow.normalBias = 0.004 * bounds.radius;
   lamp.shadow.bias = -0.0004;
+  lamp.shadow.radius = 2.5;
   lamp.target.position.copy(bounds.center);
   scene.add(lamp, lamp.target);
   return (pass) => {
     const turn = 2 * Math.PI * radicalInverse(pass, 2), away = 0.16 * Math.sqrt(radicalInverse(pass, 3));
-    lamp.position.set(0.55 + away * Math.cos(turn), 0.62 + away * Math.sin(turn), 1.15).multiplyScalar(2.6 * bounds.radius).add(bounds.center);
+    lamp.position.set(0.9 + away * Math.cos(turn), 0.5 + away * Math.sin(turn), 1.15).multiplyScalar(2.6 * bounds.radius).add(bounds.center);
   };
 }

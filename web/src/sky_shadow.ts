@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
-  DepthTexture, DoubleSide, LessEqualCompare, LinearFilter, Matrix4, MeshBasicMaterial, OrthographicCamera, Scene,
+  DepthTexture, DoubleSide, LessEqualCompare, LinearFilter, Matrix4, MeshBasicMaterial, OrthographicCamera, Scene, ShaderChunk,
   UnsignedIntType, Vector2, Vector3, Vector4, WebGLRenderTarget,
   type BufferGeometry, type Material, type WebGLRenderer, Mesh,
 } from 'three';
+import { radicalInverse } from './spread.ts';
 
 /**
  * How much of the surrounding light reaches a place. Each pass of a picture looks from a few directions of the sky, with
@@ -12,7 +13,7 @@ import {
 const tiles = 4;
 const tileSize = 768;
 /** Light that comes up from the floor, as a part of what comes down. */
-const floorBounce = 0.3;
+const floorBounce = 0.5;
 
 export interface SkyShadow {
   uniforms: Record<string, { value: unknown }>;
@@ -42,7 +43,7 @@ export function createSkyShadow(casters: BufferGeometry[], centre: Vector3, radi
   return {
     uniforms,
     look(renderer, pass, passes) {
-      uniforms.skySeed.value.set(pass * 7.31, pass * 3.77);
+      uniforms.skySeed.value.set(radicalInverse(pass, 2), radicalInverse(pass, 3));
       const before = renderer.getRenderTarget();
       for (let tile = 0; tile < tiles; ++tile) {
         const direction = skyDirection(tile * passes + pass, tiles * passes);
@@ -84,20 +85,25 @@ uniform float skyRadius;
 uniform vec2 skySeed;
 float openSky(vec3 normalInWorld) {
   // A different offset for every pixel and pass turns the steps between hard shadows into an even blur.
-  vec2 cell = gl_FragCoord.xy + skySeed;
-  float turn = 6.2831853 * fract(52.9829189 * fract(dot(cell, vec2(0.06711056, 0.00583715))));
-  float spread = sqrt(fract(31.416 * fract(dot(cell, vec2(0.0931, 0.0711)))));
-  vec2 offset = 0.006 * spread * vec2(cos(turn), sin(turn));
+  vec2 cell = fract(52.9829189 * fract(gl_FragCoord.xy * 0.06711056 + gl_FragCoord.yx * vec2(0.00583715, 0.0123)));
+  float turn = 6.2831853 * fract(cell.x + skySeed.x);
+  float spread = 0.014 * sqrt(fract(cell.y + skySeed.y));
   float open = 0.0;
   for (int i = 0; i < ${tiles}; ++i) {
     float facing = dot(normalInWorld, skyDirection[i].xyz);
     if (facing <= 0.0) continue;
     vec4 place = skyMatrix[i] * vec4(skyPlace + (0.012 * skyRadius) * normalInWorld, 1.0);
-    open += facing * skyDirection[i].w * texture(skyDepth, vec3(place.xy + offset, place.z - 0.002));
+    vec2 offset = spread * vec2(cos(turn), sin(turn));
+    float slack = 0.003 + 0.02 * min(sqrt(1.0 - facing * facing) / facing, 2.5);
+    open += facing * skyDirection[i].w * texture(skyDepth, vec3(place.xy + offset, place.z - slack));
+    turn += 2.4;
   }
   return 4.0 * open / float(${tiles});
 }
 `;
+
+/** The lamp's shadow filter draws the same grain in every pass; moved about, it averages out. */
+const lampShadow = ShaderChunk.shadowmap_pars_fragment.replaceAll('gl_FragCoord.xy', '(gl_FragCoord.xy + 131.0 * skySeed)');
 
 /** Lets a material see the sky shadow: `openSky` scales all light that comes from the environment. */
 export function shadeBySky(material: Material, sky: SkyShadow, change?: (shader: { vertexShader: string; fragmentShader: string; uniforms: Record<string, { value: unknown }> }) => void): void {
@@ -108,6 +114,7 @@ export function shadeBySky(material: Material, sky: SkyShadow, change?: (shader:
       .replace('#include <project_vertex>', '#include <project_vertex>\nskyPlace = (modelMatrix * vec4(transformed, 1.0)).xyz;');
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', '#include <common>\n' + declarations)
+      .replace('#include <shadowmap_pars_fragment>', lampShadow)
       .replace('#include <lights_fragment_maps>', /* glsl */ `#include <lights_fragment_maps>
 float open = openSky(inverseTransformDirection(normal, viewMatrix));
 iblIrradiance *= open;

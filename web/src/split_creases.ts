@@ -20,7 +20,7 @@ const creaseCosine = Math.cos((50 * Math.PI) / 180);
  */
 export function splitCreases(surface: Surface): Mesh {
   const { points, rest, triangles, face } = surface;
-  const patch = joinCorners(surface, faceNormals(rest, triangles));
+  const patch = joinCorners(surface, steadyNormals(rest, triangles));
   const normals = cornerNormals(points, triangles);
   const splitOf = new Map<number, number>();
   const source: number[] = [];
@@ -53,8 +53,7 @@ export function splitCreases(surface: Surface): Mesh {
 
 /** Unites the corners of a point that see each other across a smooth edge; answers the patch of a corner. */
 function joinCorners(surface: Surface, normals: Float32Array): (corner: number) => number {
-  const { triangles, face, points } = surface;
-  const count = points.length / 3;
+  const { triangles, face } = surface;
   const parent = Uint32Array.from(triangles, (_, corner) => corner);
   const root = (i: number): number => {
     while (parent[i] !== i) i = parent[i] = parent[parent[i]];
@@ -63,25 +62,32 @@ function joinCorners(surface: Surface, normals: Float32Array): (corner: number) 
   const smooth = (s: number, t: number) =>
     face[s] === face[t] &&
     (face[s] !== 0 || dotOf(normals, s, t) > creaseCosine);
-  const edges = new Map<number, number[]>();
-  triangles.forEach((a, corner) => {
-    const t = Math.floor(corner / 3);
-    const next = 3 * t + ((corner + 1) % 3);
-    const b = triangles[next];
-    const key = Math.min(a, b) * count + Math.max(a, b);
-    const mates = edges.get(key) ?? [];
-    if (mates.length === 0) edges.set(key, mates);
-    for (const mate of mates) {
-      const s = Math.floor(mate / 3);
-      if (!smooth(s, t)) continue;
-      const mateNext = 3 * s + ((mate + 1) % 3);
-      const swapped = triangles[mate] !== a;
-      parent[root(corner)] = root(swapped ? mateNext : mate);
-      parent[root(next)] = root(swapped ? mate : mateNext);
-    }
-    mates.push(corner);
+  forEachEdge(triangles, (corner, mate) => {
+    if (!smooth(Math.floor(mate / 3), Math.floor(corner / 3))) return;
+    const swapped = triangles[mate] !== triangles[corner];
+    parent[root(corner)] = root(swapped ? following(mate) : mate);
+    parent[root(following(corner))] = root(swapped ? mate : following(mate));
   });
   return root;
+}
+
+/** The next corner of the same triangle; a corner also names the edge that leaves it. */
+function following(corner: number): number {
+  return corner % 3 === 2 ? corner - 2 : corner + 1;
+}
+
+/** Visits every pair of triangle sides that lie on one edge. */
+function forEachEdge(triangles: Uint32Array, visit: (corner: number, mate: number) => void): void {
+  const count = triangles.reduce((most, point) => Math.max(most, point), 0) + 1;
+  const last = new Map<number, number>();
+  const before = new Int32Array(triangles.length);
+  triangles.forEach((a, corner) => {
+    const b = triangles[following(corner)];
+    const key = Math.min(a, b) * count + Math.max(a, b);
+    before[corner] = last.get(key) ?? -1;
+    for (let mate = before[corner]; mate >= 0; mate = before[mate]) visit(corner, mate);
+    last.set(key, corner);
+  });
 }
 
 function dotOf(normals: Float32Array, s: number, t: number): number {
@@ -92,31 +98,48 @@ function edgeVector(x: Float32Array, from: number, to: number): [number, number,
   return [x[3 * to] - x[3 * from], x[3 * to + 1] - x[3 * from + 1], x[3 * to + 2] - x[3 * from + 2]];
 }
 
-function faceNormals(x: Float32Array, triangles: Uint32Array): Float32Array {
-  const normals = new Float32Array(triangles.length);
+/** Twice the area, along the normal. */
+function areaVectors(x: Float32Array, triangles: Uint32Array): Float32Array {
+  const vectors = new Float32Array(triangles.length);
   for (let i = 0; i < triangles.length; i += 3) {
     const u = edgeVector(x, triangles[i], triangles[i + 1]);
     const v = edgeVector(x, triangles[i], triangles[i + 2]);
-    normals.set([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]], i);
+    vectors.set([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]], i);
   }
-  normalise(normals);
-  return normals;
+  return vectors;
 }
 
-/** Face normals weighted by the corner's angle, so that the slivers of a cut do not pull the shading about. */
+/**
+ * Face normals with the weights of Max (1999), sin(angle) / (product of the two sides): exact on a sphere however
+ * unevenly it is cut into triangles. With weights by angle or area the wet film mirrors every triangle of the lattice.
+ */
 function cornerNormals(x: Float32Array, triangles: Uint32Array): Float32Array {
-  const faces = faceNormals(x, triangles);
+  const areas = areaVectors(x, triangles);
   const corners = new Float32Array(3 * triangles.length);
   triangles.forEach((point, corner) => {
-    const t = Math.floor(corner / 3);
-    const u = edgeVector(x, point, triangles[3 * t + ((corner + 1) % 3)]);
-    const v = edgeVector(x, point, triangles[3 * t + ((corner + 2) % 3)]);
-    const lengths = Math.hypot(...u) * Math.hypot(...v);
-    const cosine = lengths > 0 ? (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) / lengths : 1;
-    const angle = Math.acos(Math.min(1, Math.max(-1, cosine)));
-    for (let k = 0; k < 3; ++k) corners[3 * corner + k] = angle * faces[3 * t + k];
+    const next = following(corner);
+    const u = edgeVector(x, point, triangles[next]), v = edgeVector(x, point, triangles[following(next)]);
+    const weight = 1 / ((u[0] ** 2 + u[1] ** 2 + u[2] ** 2) * (v[0] ** 2 + v[1] ** 2 + v[2] ** 2));
+    // Two points in one place give no direction.
+    if (!Number.isFinite(weight)) return;
+    for (let k = 0; k < 3; ++k) corners[3 * corner + k] = weight * areas[3 * Math.floor(corner / 3) + k];
   });
   return corners;
+}
+
+/** Unit normals in which a sliver, whose own normal says little, takes that of its largest neighbours. */
+function steadyNormals(x: Float32Array, triangles: Uint32Array): Float32Array {
+  const own = areaVectors(x, triangles);
+  const shared = own.slice();
+  const length = (t: number) => Math.hypot(own[3 * t], own[3 * t + 1], own[3 * t + 2]);
+  forEachEdge(triangles, (corner, mate) => {
+    const s = Math.floor(mate / 3), t = Math.floor(corner / 3);
+    for (const [to, from] of [[s, t], [t, s]]) {
+      if (length(to) * 8 < length(from)) for (let k = 0; k < 3; ++k) shared[3 * to + k] += own[3 * from + k];
+    }
+  });
+  normalise(shared);
+  return shared;
 }
 
 function normalise(vectors: Float32Array): void {

@@ -11,40 +11,38 @@ float hash(vec3 p) {
   p += dot(p, p.yxz + 33.33);
   return fract((p.x + p.y) * p.z);
 }
-float lumps(vec3 p) {
+// Smooth noise about 0.5 (x) and its slope (yzw).
+vec4 lumps(vec3 p) {
   vec3 i = floor(p), f = fract(p);
-  f = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-  return mix(
-    mix(mix(hash(i), hash(i + vec3(1, 0, 0)), f.x), mix(hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)), f.x), f.y),
-    mix(mix(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), f.x), mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y),
-    f.z);
+  vec3 u = f * f * (3.0 - 2.0 * f), du = 6.0 * f * (1.0 - f);
+  float a = hash(i), b = hash(i + vec3(1, 0, 0)), c = hash(i + vec3(0, 1, 0)), d = hash(i + vec3(1, 1, 0));
+  float e = hash(i + vec3(0, 0, 1)), g = hash(i + vec3(1, 0, 1)), h = hash(i + vec3(0, 1, 1)), k = hash(i + vec3(1, 1, 1));
+  float near = mix(mix(a, b, u.x), mix(c, d, u.x), u.y), far = mix(mix(e, g, u.x), mix(h, k, u.x), u.y);
+  float alongX = mix(mix(b - a, d - c, u.y), mix(g - e, k - h, u.y), u.z);
+  float alongY = mix(mix(c - a, d - b, u.x), mix(h - e, k - g, u.x), u.z);
+  return vec4(mix(near, far, u.z), du * vec3(alongX, alongY, far - near));
 }
 float cloud(vec3 p) {
-  return 0.53 * lumps(p) + 0.27 * lumps(2.03 * p + 17.0) + 0.13 * lumps(4.1 * p + 5.0) + 0.07 * lumps(8.3 * p + 9.0);
-}
-vec3 slope(vec3 p) {
-  const float e = 0.15;
-  return vec3(lumps(p + vec3(e, 0, 0)), lumps(p + vec3(0, e, 0)), lumps(p + vec3(0, 0, e))) - lumps(p);
+  return 0.56 * lumps(p).x + 0.28 * lumps(2.03 * p + 17.0).x + 0.16 * lumps(4.1 * p + 5.0).x;
 }
 `;
 
 /** Broad mottling on the skin; a fine grain with paler lobules where the blade opened the organ. */
 const paint = /* glsl */ `#include <color_fragment>
 float mottle = smoothstep(0.3, 0.7, cloud(9.0 * tissuePlace));
-float speck = cloud(60.0 * tissuePlace);
-vec3 skin = mix(skinColour, skinSpot, mottle) * (0.9 + 0.2 * speck);
-float grain = smoothstep(0.3, 0.75, cloud(75.0 * tissuePlace));
-vec3 flesh = mix(fleshColour, fleshSpot, 0.65 * grain + 0.35 * mottle);
+float speck = cloud(70.0 * tissuePlace);
+vec3 skin = mix(skinColour, skinSpot, mottle) * (0.85 + 0.3 * speck);
+vec3 flesh = mix(fleshColour, fleshSpot, 0.7 * smoothstep(0.3, 0.75, speck) + 0.3 * mottle);
 diffuseColor.rgb = mix(skin, flesh, tissueInside);
 `;
 
 /** The wet film lies smoothly on the skin and breaks up on the cut faces. */
 const relief = /* glsl */ `#include <clearcoat_normal_fragment_begin>
 {
-  vec3 broad = (viewMatrix * vec4(slope(26.0 * tissuePlace), 0.0)).xyz;
-  vec3 fine = (viewMatrix * vec4(slope(90.0 * tissuePlace), 0.0)).xyz;
-  normal = normalize(normal - mix(0.30, 0.25, tissueInside) * broad - mix(0.12, 0.65, tissueInside) * fine);
-  clearcoatNormal = normalize(clearcoatNormal - 0.10 * broad - mix(0.02, 0.40, tissueInside) * fine);
+  vec3 broad = (viewMatrix * vec4(lumps(24.0 * tissuePlace).yzw, 0.0)).xyz;
+  vec3 fine = (viewMatrix * vec4(lumps(90.0 * tissuePlace).yzw, 0.0)).xyz;
+  normal = normalize(normal - 0.05 * broad - mix(0.02, 0.08, tissueInside) * fine);
+  clearcoatNormal = normalize(clearcoatNormal - 0.03 * broad - mix(0.004, 0.05, tissueInside) * fine);
 }
 `;
 
@@ -63,18 +61,15 @@ export function createTissueMaterial(sky: SkyShadow, size: number): MeshPhysical
     side: DoubleSide,
     roughness: 0.46,
     clearcoat: 0.85,
-    clearcoatRoughness: 0.17,
+    clearcoatRoughness: 0.2,
     specularIntensity: 0.5,
-    sheen: 0.2,
-    sheenColor: new Color(0xff6048),
-    sheenRoughness: 0.5,
   });
   const uniforms = {
     tissueScale: { value: 1 / size },
-    skinColour: { value: new Color(0x7d2019) },
-    skinSpot: { value: new Color(0x5d130f) },
-    fleshColour: { value: new Color(0x8e2a22) },
-    fleshSpot: { value: new Color(0xc0655a) },
+    skinColour: { value: new Color(0x7a2a20) },
+    skinSpot: { value: new Color(0x561a14) },
+    fleshColour: { value: new Color(0x8f342a) },
+    fleshSpot: { value: new Color(0xae5347) },
   };
   shadeBySky(material, sky, (shader) => {
     Object.assign(shader.uniforms, uniforms);
