@@ -45,6 +45,9 @@ export function parseOptions(words) {
   const camera = readNumbers('--camera', given.get('--camera'), [6, 7]);
   if (camera) options.camera = { eye: camera.slice(0, 3), target: camera.slice(3, 6), ...(camera.length > 6 && { fov: camera[6] }) };
   const blade = readNumbers('--blade', given.get('--blade'), [6]);
+  for (const [option, ends] of /** @type {const} */ ([['--camera', camera], ['--blade', blade]])) {
+    if (ends && [0, 1, 2].every((k) => ends[k] === ends[k + 3])) throw new Error(`${option} ${given.get(option)}: both places are the same; give two different ones`);
+  }
   if (blade) options.blade = { heel: blade.slice(0, 3), tip: blade.slice(3) };
   const view = given.get('--view');
   if (view !== undefined && !views.includes(view)) throw new Error(`--view ${view}: no such view; give one of ${views.join(', ')}`);

@@ -21,7 +21,15 @@ export function placeCamera(eye: number[], target: number[], fov: number | undef
   camera.position.fromArray(eye);
   camera.lookAt(new Vector3().fromArray(target));
   camera.updateMatrixWorld();
+  setDepthRange(camera, camera.position.distanceTo(new Vector3().fromArray(target)));
   return camera;
+}
+
+/** Bodies may be millimetres or metres across. */
+function setDepthRange(camera: PerspectiveCamera, distance: number): void {
+  camera.near = 0.02 * distance;
+  camera.far = 100 * distance;
+  camera.updateProjectionMatrix();
 }
 
 /** The nearest camera in the direction of the view that has all points in the picture, with air around them. */
@@ -45,5 +53,6 @@ export function frameCamera(points: Float32Array, view: View, aspect: number): P
   const inView = new Vector3((reach.right - reach.left) / 2, (reach.up - reach.down) / 2, distance);
   camera.position.copy(inView.applyMatrix4(toView.invert()));
   camera.updateMatrixWorld();
+  setDepthRange(camera, camera.position.distanceTo(p.fromArray(points)));
   return camera;
 }

@@ -8,7 +8,7 @@ export function createEnvironment(renderer: WebGLRenderer): Texture {
   addLamp(scene, new PlaneGeometry(6, 4), new Vector3(2, 5, 10), new Color(12, 11.4, 10.6));
   addLamp(scene, new PlaneGeometry(3, 9), new Vector3(-13, 3, 4), new Color(3.2, 3.7, 4.3));
   addLamp(scene, new PlaneGeometry(3, 9), new Vector3(12, -6, 4), new Color(2.6, 2.9, 3.3));
-  addLamp(scene, new PlaneGeometry(12, 3), new Vector3(-2, -12, 6), new Color(1.1, 1.15, 1.2));
+  addLamp(scene, new PlaneGeometry(12, 3), new Vector3(-2, -12, 6), new Color(0.7, 0.74, 0.78));
   addLamp(scene, new CircleGeometry(14, 24), new Vector3(0, 0, -12), new Color(0.16, 0.22, 0.22));
   const generator = new PMREMGenerator(renderer);
   const texture = generator.fromScene(scene, 0.03).texture;

@@ -9,7 +9,7 @@ import { buildStill } from './scene.ts';
 import { splitCreases } from './split_creases.ts';
 import type { Surface } from './surface.ts';
 
-/** Eighty-odd edge samples and sky directions per picture: no grain is left, and software rendering stays in seconds. */
+/** Enough edge, lamp and sky samples that no grain is left, few enough that software rendering stays in seconds. */
 const passes = 14;
 
 /** Draws all stills of the request into the page; throws an Error whose text names the surface and the fault. */
@@ -51,7 +51,10 @@ function bytesOf(base64: string): Uint8Array {
 }
 
 function createRenderer(width: number, height: number): WebGLRenderer {
-  const renderer = new WebGLRenderer({ preserveDrawingBuffer: true });
+  const canvas = document.createElement('canvas');
+  const context = canvas.getContext('webgl2', { preserveDrawingBuffer: true });
+  if (!context) throw new Error('the browser gives no WebGL 2; use one that does, or update its graphics driver');
+  const renderer = new WebGLRenderer({ canvas, context });
   renderer.setSize(width, height, false);
   renderer.toneMapping = ACESFilmicToneMapping;
   renderer.shadowMap.enabled = true;

@@ -13,7 +13,6 @@ export interface Scalpel {
 export function createScalpel(heel: Vector3, tip: Vector3, eye: Vector3): Scalpel {
   const along = tip.clone().sub(heel);
   const length = along.length();
-  if (!(length > 0)) throw new Error('the blade has no length; give two different ends');
   along.divideScalar(length);
   const spine = new Vector3(0, 0, 1).addScaledVector(along, -along.z);
   if (spine.length() < 0.35) spine.copy(eye).sub(heel).cross(along);

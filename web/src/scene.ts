@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
-  BufferAttribute, BufferGeometry, CircleGeometry, Color, DirectionalLight, Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, Sphere, Vector3,
+  BufferAttribute, BufferGeometry, CircleGeometry, Color, DirectionalLight, Euler, Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, Sphere, Vector3,
   type Texture,
 } from 'three';
 import { createScalpel } from './scalpel.ts';
@@ -21,7 +21,7 @@ export interface Still {
 
 export interface StillOptions {
   mesh: TissueMesh;
-  /** All points that every still of a strip has in common a frame with. */
+  /** Around all bodies of the strip, so that its stills share lights and floor. */
   bounds: Sphere;
   floorHeight: number;
   blade: { heel: Vector3; tip: Vector3 } | undefined;
@@ -36,20 +36,33 @@ export function buildStill({ mesh, bounds, floorHeight, blade, camera, environme
   const tissue = tissueGeometry(mesh);
   const scalpel = blade && createScalpel(blade.heel, blade.tip, camera.position);
   const casters = scalpel ? [tissue, scalpel.blade, scalpel.handle] : [tissue];
-  const sky = createSkyShadow(casters, bounds.center, 1.6 * bounds.radius);
+  const rig = turnLights(camera, bounds, floorHeight);
+  scene.environmentRotation.copy(rig.rotation);
+  const sky = createSkyShadow(casters, bounds.center, 1.6 * bounds.radius, rig.fromBelow);
   addBody(scene, tissue, createTissueMaterial(sky, 2 * bounds.radius));
   if (scalpel) {
-    const steel = new MeshStandardMaterial({ color: 0xe2e6e8, metalness: 1, roughness: 0.3, envMapIntensity: 1.8 });
-    const grip = new MeshStandardMaterial({ color: 0xb9c0c4, metalness: 1, roughness: 0.42, envMapIntensity: 1.8 });
+    const steel = new MeshStandardMaterial({ color: 0xe2e6e8, metalness: 1, roughness: 0.3, envMapIntensity: 2.4 });
+    const grip = new MeshStandardMaterial({ color: 0xb9c0c4, metalness: 1, roughness: 0.42, envMapIntensity: 2.4 });
     shadeBySky(steel, sky);
     shadeBySky(grip, sky);
     // The blade is thinner than a texel of the lamp's shadow, so that it would only speckle itself.
     addBody(scene, scalpel.blade, steel).receiveShadow = false;
     addBody(scene, scalpel.handle, grip);
   }
-  // From below the floor would hide the body.
-  if (camera.position.z > floorHeight) scene.add(createFloor(sky, bounds, floorHeight));
-  return { scene, sky, placeLamp: addLamp(scene, bounds) };
+  if (!rig.fromBelow) scene.add(createFloor(sky, bounds, floorHeight));
+  return { scene, sky, placeLamp: addLamp(scene, bounds, rig.rotation) };
+}
+
+/**
+ * The lights go round the body with the eye, so that every view is lit alike. From under the floor they are turned
+ * upside down and the floor, which would hide the body, is left out.
+ */
+function turnLights(camera: PerspectiveCamera, bounds: Sphere, floorHeight: number): { rotation: Euler; fromBelow: boolean } {
+  const eye = camera.position.clone().sub(bounds.center);
+  const overhead = Math.hypot(eye.x, eye.y) < 0.2 * eye.length();
+  const turn = overhead ? 0 : Math.atan2(eye.y, eye.x) - Math.atan2(1, 0.42);
+  const fromBelow = camera.position.z < floorHeight;
+  return { rotation: new Euler(0, fromBelow ? Math.PI : 0, turn), fromBelow };
 }
 
 function tissueGeometry(mesh: TissueMesh): BufferGeometry {
@@ -88,19 +101,19 @@ outgoingLight = mix(outgoingLight, floorEnd, smoothstep(0.8, 6.0, away));
   return floor;
 }
 
-function addLamp(scene: Scene, bounds: Sphere): (pass: number) => void {
+function addLamp(scene: Scene, bounds: Sphere, rotation: Euler): (pass: number) => void {
   const lamp = new DirectionalLight(0xfff1e2, 2.6);
   const reach = 1.7 * bounds.radius;
   lamp.castShadow = true;
   lamp.shadow.mapSize.set(1024, 1024);
   Object.assign(lamp.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 8 * reach });
-  lamp.shadow.normalBias = 0.004 * bounds.radius;
+  lamp.shadow.normalBias = 0.012 * bounds.radius;
   lamp.shadow.bias = -0.0004;
   lamp.shadow.radius = 2.5;
   lamp.target.position.copy(bounds.center);
   scene.add(lamp, lamp.target);
   return (pass) => {
     const turn = 2 * Math.PI * radicalInverse(pass, 2), away = 0.16 * Math.sqrt(radicalInverse(pass, 3));
-    lamp.position.set(0.9 + away * Math.cos(turn), 0.5 + away * Math.sin(turn), 1.15).multiplyScalar(2.6 * bounds.radius).add(bounds.center);
+    lamp.position.set(0.8 + away * Math.cos(turn), 0.8 + away * Math.sin(turn), 1.1).applyEuler(rotation).multiplyScalar(2.6 * bounds.radius).add(bounds.center);
   };
 }

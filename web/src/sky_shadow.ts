@@ -21,7 +21,7 @@ export interface SkyShadow {
   dispose(): void;
 }
 
-export function createSkyShadow(casters: BufferGeometry[], centre: Vector3, radius: number): SkyShadow {
+export function createSkyShadow(casters: BufferGeometry[], centre: Vector3, radius: number, fromBelow: boolean): SkyShadow {
   const target = new WebGLRenderTarget(2 * tileSize, 2 * tileSize);
   target.depthTexture = new DepthTexture(2 * tileSize, 2 * tileSize, UnsignedIntType);
   target.depthTexture.compareFunction = LessEqualCompare;
@@ -58,7 +58,7 @@ export function createSkyShadow(casters: BufferGeometry[], centre: Vector3, radi
         renderer.render(scene, camera);
         matrices[tile].set(0.25, 0, 0, 0.25 + 0.5 * (tile % 2), 0, 0.25, 0, 0.25 + 0.5 * Math.floor(tile / 2), 0, 0, 0.5, 0.5, 0, 0, 0, 1)
           .multiply(camera.projectionMatrix).multiply(camera.matrixWorldInverse);
-        directions[tile].set(direction.x, direction.y, direction.z, direction.z > 0 ? 1 : floorBounce);
+        directions[tile].set(direction.x, direction.y, direction.z, direction.z > 0 !== fromBelow ? 1 : floorBounce);
       }
       renderer.setRenderTarget(before);
     },

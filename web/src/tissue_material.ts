@@ -42,7 +42,7 @@ const relief = /* glsl */ `#include <clearcoat_normal_fragment_begin>
   vec3 broad = (viewMatrix * vec4(lumps(24.0 * tissuePlace).yzw, 0.0)).xyz;
   vec3 fine = (viewMatrix * vec4(lumps(90.0 * tissuePlace).yzw, 0.0)).xyz;
   normal = normalize(normal - 0.05 * broad - mix(0.02, 0.08, tissueInside) * fine);
-  clearcoatNormal = normalize(clearcoatNormal - 0.03 * broad - mix(0.004, 0.05, tissueInside) * fine);
+  clearcoatNormal = normalize(clearcoatNormal - 0.04 * broad - mix(0.004, 0.05, tissueInside) * fine);
 }
 `;
 

@@ -29,6 +29,7 @@ test('wrong command lines are one line and status 2', () => {
   assert.match(fault(['a.obj', '--out', 'a.png', '--size', '10']), /such as 1280x800/);
   assert.match(fault(['a.obj', '--out', 'a.png', '--view', 'top']), /front, back, left/);
   assert.match(fault(['a.obj', '--out', 'a.png', '--blade', '1,2,x,4,5,6']), /--blade 1,2,x,4,5,6: give 6 numbers/);
+  assert.match(fault(['a.obj', '--out', 'a.png', '--blade', '1,2,3,1,2,3']), /--blade 1,2,3,1,2,3: both places are the same/);
 });
 
 test('a missing surface and a missing Chromium are named', () => {
