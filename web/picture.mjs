@@ -9,6 +9,9 @@ import { parseOptions } from './picture_options.mjs';
 const here = dirname(fileURLToPath(import.meta.url));
 const page = join(here, 'dist/picture.html');
 
+/** A busy machine may take a minute where an idle one takes a second. */
+const patience = 120_000;
+
 const chromiumFlags = [
   '--no-sandbox', '--use-angle=gl-egl', '--ignore-gpu-blocklist', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
@@ -38,7 +41,7 @@ async function openBrowser() {
   const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
   if (!existsSync(executablePath)) throw new Error(`${executablePath}: no Chromium; install it (apt install chromium) or name it in CHROMIUM`);
   try {
-    return await chromium.launch({ executablePath, args: chromiumFlags });
+    return await chromium.launch({ executablePath, args: chromiumFlags, timeout: patience });
   } catch (error) {
     throw new Error(`${executablePath}: Chromium does not start (${firstLine(error)}); run it by hand to see why`);
   }
@@ -63,10 +66,10 @@ async function draw({ surfaces, out, ...look }) {
   try {
     const [width, height] = look.size;
     const tab = await browser.newPage({ viewport: { width, height } });
-    await tab.goto(pathToFileURL(page).href);
+    await tab.goto(pathToFileURL(page).href, { timeout: patience });
     const fault = await tab.evaluate((asked) => /** @type {any} */ (window).drawPicture(asked), request);
     if (fault) throw new Error(fault);
-    await writeFile(out, await tab.screenshot({ type: 'png', timeout: 120_000 })).catch((error) => {
+    await writeFile(out, await tab.screenshot({ type: 'png', timeout: patience })).catch((error) => {
       throw new Error(`${out}: cannot be written (${error.code}); give a path in a folder that exists`);
     });
   } finally {
