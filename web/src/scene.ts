@@ -108,7 +108,7 @@ function addLamp(scene: Scene, bounds: Sphere, rotation: Euler): (pass: number) 
   lamp.shadow.mapSize.set(1024, 1024);
   Object.assign(lamp.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 8 * reach });
   lamp.shadow.normalBias = 0.012 * bounds.radius;
-  lamp.shadow.bias = -0.0004;
+  lamp.shadow.bias = -0.0015;
   lamp.shadow.radius = 2.5;
   lamp.target.position.copy(bounds.center);
   scene.add(lamp, lamp.target);
