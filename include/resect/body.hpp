@@ -56,7 +56,7 @@ enum class Split { six, bcc };
 /// A block with its corner at the origin. Nodes run x fastest, then y, then z; six tets a cell (`six`).
 Result<Body> make_block(Vec3 size, std::array<Index, 3> cells, Split split = Split::six);
 
-/// A liver of 0.24 x 0.13 x 0.15 m, own implicit shape; x to the patient's left, y anterior, z cranial.
+/// A liver of 0.24 x 0.13 x 0.15 m, own implicit shape; x to the patient's left, y posterior, z cranial.
 /// Lattice{.elements = N} gives N elements within 1 %, and exactly 6097 for 6097.
 Result<Body> make_liver(Lattice lattice);
 

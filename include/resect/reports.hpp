@@ -56,7 +56,7 @@ struct TimeStep {
     double live_bound = 0; // at the deformation of the last check
 };
 
-/// The deformation that checks have met since creation.
+/// The deformation that checks have met since the clock started: creation, or the end of settle().
 struct Strain {
     double stretch_min = 1, stretch_max = 1;
     Index elements_beyond_range = 0; // most at any check: where the law is continued (docs/method.md)
@@ -91,7 +91,7 @@ struct Copies {
     std::span<const std::array<Index, 4>> node = {}; // rows of Nodes
     std::span<const Index> element = {};             // row of Body::elements.tets
     std::span<const Index> piece = {};               // Piece::id
-    std::span<const float> fraction = {};            // of the element's volume that is this copy's material
+    std::span<const double> fraction = {};           // of the element's volume that is this copy's material
 };
 
 } // namespace resect

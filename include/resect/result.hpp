@@ -3,10 +3,10 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 
 namespace resect {
 
@@ -19,21 +19,22 @@ struct Error {
 template <class T>
 class Result {
 public:
-    Result(T value)
-        : held_(std::in_place_index<0>, std::move(value)) {} // NOLINT(google-explicit-constructor)
-    Result(Error error)
-        : held_(std::in_place_index<1>, std::move(error)) {} // NOLINT(google-explicit-constructor)
+    // NOLINTNEXTLINE(google-explicit-constructor): so that functions can return either.
+    Result(T value) : value_(std::move(value)) {}
+    // NOLINTNEXTLINE(google-explicit-constructor)
+    Result(Error error) : error_(std::move(error)) {}
 
-    explicit operator bool() const { return held_.index() == 0; }
-    T& operator*() { return *std::get_if<0>(&held_); }
-    const T& operator*() const { return *std::get_if<0>(&held_); }
-    T* operator->() { return std::get_if<0>(&held_); }
-    const T* operator->() const { return std::get_if<0>(&held_); }
+    explicit operator bool() const { return value_.has_value(); }
+    T& operator*() { return *value_; }
+    const T& operator*() const { return *value_; }
+    T* operator->() { return &*value_; }
+    const T* operator->() const { return &*value_; }
     /// Only where there is no value.
-    const Error& error() const { return *std::get_if<1>(&held_); }
+    const Error& error() const { return error_; }
 
 private:
-    std::variant<T, Error> held_;
+    std::optional<T> value_ = {};
+    Error error_ = {};
 };
 
 /// Done, or the Error that says why not.
@@ -41,7 +42,8 @@ template <>
 class Result<void> {
 public:
     Result() = default;
-    Result(Error error) : error_(std::move(error)), failed_(true) {} // NOLINT(google-explicit-constructor)
+    // NOLINTNEXTLINE(google-explicit-constructor)
+    Result(Error error) : error_(std::move(error)), failed_(true) {}
 
     explicit operator bool() const { return !failed_; }
     const Error& error() const { return error_; }

@@ -54,7 +54,7 @@ struct Setup {
     Motion initial = {};
     Vec3 gravity = {0, 0, -9.81}; // m/s^2
     double damping = 0;           // alpha of D = alpha M, 1/s
-    double time_step = 0;         // s; 0: 0.7 of the rest bound
+    double time_step = 0;         // s; 0: 0.6 of the rest bound
     bool allow_unstable_step = false;
     CutOptions cut = {};
     int threads = 0; // 0: all cores; never changes a bit of the result

@@ -12,6 +12,8 @@
 
 namespace resect {
 
+struct Engine; // model and state
+
 /// A body that moves and is cut. Move-only; one thread drives it; views live until its next non-const call.
 class Simulation {
 public:
@@ -49,9 +51,11 @@ public:
     std::uint64_t hash() const;
 
 private:
-    struct Impl;
-    explicit Simulation(std::unique_ptr<Impl> impl);
-    std::unique_ptr<Impl> impl_;
+    explicit Simulation(std::unique_ptr<Engine> engine);
+    std::unique_ptr<Engine> engine_;
 };
+
+/// The instruction set that the element kernels run on here.
+const char* instruction_set();
 
 } // namespace resect

@@ -51,6 +51,7 @@ void sweep_blade(Cutter& cutter, Index blade, const Edge& to, std::span<const Ve
 /// Components of M with stable ids: brought up to date if a cut changed M, else as they were.
 /// Centres are of the displaced material; mass is by `copy_weight`.
 std::span<const Piece> update_pieces(Cutter& cutter, std::span<const Vec3f> displacement);
+Index count_pieces(Cutter& cutter);
 std::span<const Index> piece_of_copy(Cutter& cutter);
 
 /// The boundary of M: topology brought up to date if M changed, positions and normals evaluated.

@@ -112,6 +112,11 @@ std::span<const Piece> update_pieces(Cutter& cutter, std::span<const Vec3f> disp
     return pieces;
 }
 
+Index count_pieces(Cutter& cutter) {
+    relabel_pieces(cutter);
+    return static_cast<Index>(cutter.pieces.pieces.size());
+}
+
 std::span<const Index> piece_of_copy(Cutter& cutter) {
     relabel_pieces(cutter);
     return cutter.pieces.of_copy;

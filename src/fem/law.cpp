@@ -17,8 +17,8 @@ namespace resect {
 namespace {
 
 constexpr double softening_width = 0.3; // of a threshold
-constexpr double fade_width = 0.2;      // in J', of the curvature of phi
-constexpr double wall = 6;              // of K
+constexpr double fade_width = 0.4;      // in J', of the curvature of phi
+constexpr double wall = 3;              // of K
 
 /// A function of one argument with its first and second derivative.
 struct Curve {

@@ -22,7 +22,7 @@ inline Moduli moduli(const Material& material) {
 /// Where the law is exactly neo-Hookean.
 inline constexpr double trusted_volume = 0.6;  // J, and above
 inline constexpr double trusted_length = 10.5; // I1, and below; uniaxial tension at nu 0.35 reaches it at 3.1
-inline constexpr double trusted_area = 11;     // I2 = |cof F|^2, and below
+inline constexpr double trusted_area = 12;     // I2 = |cof F|^2, and below
 
 /// F as the law sees it, in differences from rest, which float holds to its relative precision where strain
 /// is small.

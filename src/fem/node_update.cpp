@@ -21,10 +21,6 @@ Vec3f internal_force(const Elements& elements, Index node) {
     return sum;
 }
 
-Vec3 applied_force(const NodeArrays& nodes, const StepConstants& constants, Index node) {
-    return to_double(nodes.load[row(node)]) + double(nodes.mass[row(node)]) * to_double(constants.gravity);
-}
-
 /// Central differences in leapfrog form: M a + alpha M v = R - f with v at the half steps gives
 /// v+ = c1 v- + c2 ((load - f) / m + g) and u+ = u + dt v+, where c2 = dt / (1 + alpha dt / 2) and
 /// c1 = (1 - alpha dt / 2) / (1 + alpha dt / 2) = 1 - alpha c2; the last form rounds least.
@@ -61,6 +57,10 @@ void add_energies(StepSums& sums, const NodeArrays& nodes, const StepConstants& 
 
 } // namespace
 
+Vec3 applied_force(const NodeArrays& nodes, const StepConstants& constants, Index node) {
+    return to_double(nodes.load[row(node)]) + double(nodes.mass[row(node)]) * to_double(constants.gravity);
+}
+
 StepSums node_update(const Elements& elements, NodeArrays& nodes, const StepConstants& constants,
                      Range range) {
     StepSums sums;
@@ -71,7 +71,9 @@ StepSums node_update(const Elements& elements, NodeArrays& nodes, const StepCons
         move(nodes, constants, node, internal);
         add_energies(sums, nodes, constants, n, internal);
         const float speed_squared = dot(nodes.next_velocity[node], nodes.next_velocity[node]);
-        sums.speed_squared = std::max(sums.speed_squared, speed_squared);
+        if (nodes.inverse_mass[node] > 0) {
+            sums.speed_squared = std::max(sums.speed_squared, speed_squared);
+        }
         finite = finite && std::isfinite(speed_squared) && is_finite(nodes.next_displacement[node]) &&
                  is_finite(internal);
     }
@@ -79,17 +81,9 @@ StepSums node_update(const Elements& elements, NodeArrays& nodes, const StepCons
     return sums;
 }
 
-Residual out_of_balance(const Elements& elements, const NodeArrays& nodes, const StepConstants& constants,
-                        Range range) {
-    Residual residual;
-    for (Index n = range.begin; n < range.end; ++n) {
-        if (!(nodes.inverse_mass[row(n)] > 0)) { continue; }
-        const Vec3 applied = applied_force(nodes, constants, n);
-        const Vec3 net = applied - to_double(internal_force(elements, n));
-        residual.out_of_balance += dot(net, net);
-        residual.applied += dot(applied, applied);
-    }
-    return residual;
+Vec3 net_force(const Elements& elements, const NodeArrays& nodes, const StepConstants& constants,
+               Index node) {
+    return applied_force(nodes, constants, node) - to_double(internal_force(elements, node));
 }
 
 } // namespace resect

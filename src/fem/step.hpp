@@ -35,7 +35,7 @@ struct StepSums {
     double damping_work = 0;  // J, that mass-proportional damping took
     double applied_work = 0;  // J, that gravity and loads gave to free nodes
     double kinetic = 0;       // J, at the half step after
-    float speed_squared = 0;  // largest; NaN or infinite if anything is not finite
+    float speed_squared = 0;  // largest of free nodes; NaN if anything is not finite
 };
 
 /// Deformation gradient, second Piola-Kirchhoff stress and nodal forces of the copies in blocks [begin, end)
@@ -47,13 +47,10 @@ void element_forces(Elements& elements, const NodeArrays& nodes, Range blocks);
 StepSums node_update(const Elements& elements, NodeArrays& nodes, const StepConstants& constants,
                      Range range);
 
-/// Sums of squares over the free nodes of `range`, N^2, from the forces that element_forces left.
-struct Residual {
-    double out_of_balance = 0; // internal and applied forces together
-    double applied = 0;        // gravity and loads
-};
-Residual out_of_balance(const Elements& elements, const NodeArrays& nodes, const StepConstants& constants,
-                        Range range);
+/// Gravity and load on a node, N.
+Vec3 applied_force(const NodeArrays& nodes, const StepConstants& constants, Index node);
+/// Applied less internal force on a node, N, from the forces that element_forces left.
+Vec3 net_force(const Elements& elements, const NodeArrays& nodes, const StepConstants& constants, Index node);
 
 /// Deformation of the copies, looked at every few steps.
 struct StrainCheck {
@@ -68,7 +65,7 @@ StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std:
 /// Of both ranges; the earlier one's copy stays where bounds are equal.
 StrainCheck merge(const StrainCheck& a, const StrainCheck& b);
 
-double elastic_energy(const Elements& elements, const NodeArrays& nodes);               // J
+double elastic_energy(const Elements& elements, std::span<const Vec3f> displacement);   // J
 double von_mises_stress(const Elements& elements, const NodeArrays& nodes, Index copy); // Pa, Cauchy
 
 } // namespace resect

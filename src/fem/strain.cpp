@@ -17,14 +17,14 @@ struct CopyState {
     Moduli moduli = {};
 };
 
-CopyState state_of(const Elements& elements, const NodeArrays& nodes, Index copy) {
+CopyState state_of(const Elements& elements, std::span<const Vec3f> displacement, Index copy) {
     const ElementBlock& block = elements.blocks[row(copy / lanes)];
     const Index lane = copy % lanes;
-    const Vec3 base = to_double(nodes.displacement[row(block.node[0][lane])]);
+    const Vec3 base = to_double(displacement[row(block.node[0][lane])]);
     CopyState state;
     double relative[3][3] = {};
     for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 u = to_double(nodes.displacement[row(block.node[k + 1][lane])]) - base;
+        const Vec3 u = to_double(displacement[row(block.node[k + 1][lane])]) - base;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             relative[k][axis] = u[axis];
             state.gradient[k][axis] = double(block.gradient[k][axis][lane]);
@@ -81,7 +81,7 @@ StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std:
                          Range copies) {
     StrainCheck check;
     for (Index copy = copies.begin; copy < copies.end; ++copy) {
-        const CopyState state = state_of(elements, nodes, copy);
+        const CopyState state = state_of(elements, nodes.displacement, copy);
         const Stretches now = principal_stretches(state.at.H);
         check = merge(check, {now.value[2], now.value[0], is_trusted(state.at.now) ? 0 : 1,
                               now.J <= 0 ? 1 : 0, copy, live_bound(state, now, double(density[row(copy)]))});
@@ -89,17 +89,17 @@ StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std:
     return check;
 }
 
-double elastic_energy(const Elements& elements, const NodeArrays& nodes) {
+double elastic_energy(const Elements& elements, std::span<const Vec3f> displacement) {
     double energy = 0;
     for (Index copy = 0; copy < elements.count; ++copy) {
-        const CopyState state = state_of(elements, nodes, copy);
+        const CopyState state = state_of(elements, displacement, copy);
         energy += state.volume * law(state.at.now, state.moduli).W;
     }
     return energy;
 }
 
 double von_mises_stress(const Elements& elements, const NodeArrays& nodes, Index copy) {
-    const CopyState state = state_of(elements, nodes, copy);
+    const CopyState state = state_of(elements, nodes.displacement, copy);
     const Stretches now = principal_stretches(state.at.H);
     // Principal Cauchy stresses but for the pressure dW/dJ, which all three share. A copy crushed below a
     // thousandth of its volume counts as that thousandth.

@@ -20,6 +20,8 @@ constexpr double band = 0.2;
 /// Outside lattice tets whose nearest corner is nearer to the surface than this, in spacings, may hold
 /// material that finer tets find: a tet's circumradius is 0.56, and a shape is only about a distance.
 constexpr double reach = 0.75;
+/// Vertices nearer to the surface than this share of the finest spacing lie on it.
+constexpr double snapped = 0.06;
 constexpr std::size_t most_elements = 20'000'000;
 constexpr std::size_t most_material = 200'000'000;
 
@@ -220,6 +222,17 @@ EdgeMap mark_surface_edges(const Shape& shape, const Draft& draft, double size) 
     return marks;
 }
 
+/// Lays the surface through the vertices that it nearly meets: cut close to a vertex, tets would be tiny, and a
+/// crossing kept away from the vertex instead would leave a pit. The vertices stay where they are, since those of
+/// the lattice carry the embedding.
+void snap_surface(const Shape& shape, double size, Draft& draft) {
+    for (std::size_t vertex = 0; vertex < draft.values.size(); ++vertex) {
+        double& value = draft.values[vertex];
+        if (std::abs(value) > 4 * snapped * size) { continue; }
+        if (std::abs(estimate_distance(shape, draft.material.nodes[vertex], size)) < snapped * size) { value = 0; }
+    }
+}
+
 /// Halves the edges of tets that meet the surface.
 void refine_once(const Shape& shape, double spacing, double size, Draft& draft) {
     EdgeMap marks = mark_surface_edges(shape, draft, size);
@@ -266,10 +279,8 @@ double find_crossing(const Shape& shape, const Vec3& p, const Vec3& d, double in
 void cut_at_surface(const Shape& shape, double spacing, Draft& draft) {
     EdgeMap crossings;
     const auto is_in = [&](Index vertex) { return draft.values[row(vertex)] < 0; };
-    const Index first_crossing = static_cast<Index>(draft.values.size());
-    const auto marked = [&](Index a, Index b) {
-        return a < first_crossing && b < first_crossing && is_in(a) != is_in(b);
-    };
+    const auto is_out = [&](Index vertex) { return draft.values[row(vertex)] > 0; };
+    const auto marked = [&](Index a, Index b) { return (is_in(a) && is_out(b)) || (is_out(a) && is_in(b)); };
     const auto crossing = [&](Index a, Index b) {
         Index& vertex = crossings[edge_key(a, b)];
         if (vertex >= 0) { return vertex; }
@@ -348,7 +359,9 @@ Fault refine(const Shape& shape, const Box& bounds, const LatticePlan& plan, Dra
             return too_large(plan, draft.material.tets.size());
         }
     }
-    return check_vertices(draft, bounds);
+    if (Fault fault = check_vertices(draft, bounds)) { return fault; }
+    snap_surface(shape, std::ldexp(plan.spacing, -plan.refine), draft);
+    return {};
 }
 
 Error empty_body(const LatticePlan& plan) {

@@ -36,10 +36,9 @@ struct Preset {
 
 constexpr Index paper_elements = 6097; // the liver of the paper
 constexpr Preset presets[] = {
-    {paper_elements, {0.0164261, {0.926, 0.408, 0.345}, 0}},
-    {paper_elements, {0.0164654, {0.375, 0.117, 0.619}, 1}},
-    {paper_elements, {0.0164622, {0.832, 0.131, 0.268}, 2}},
-    {paper_elements, {0.0164627, {0.832, 0.131, 0.268}, 3}},
+    {paper_elements, {0.0161702, {0.739, 0.854, 0.192}, 0}},
+    {paper_elements, {0.0163679, {0.248, 0.696, 0.402}, 1}},
+    {paper_elements, {0.0164360, {0.388, 0.577, 0.338}, 2}},
 };
 
 const Preset* find_preset(const Lattice& lattice) {
@@ -52,7 +51,8 @@ const Preset* find_preset(const Lattice& lattice) {
 
 } // namespace
 
-double liver_shape(const Vec3& p) {
+double liver_shape(const Vec3& point) {
+    const Vec3 p = {point[0], -point[1], point[2]}; // the pieces are written with y anterior
     const double diaphragm = ellipsoid(p, {-0.015, -0.010, -0.080}, {0.175, 0.120, 0.150});
     const double kidney = ellipsoid(p, {-0.058, -0.082, -0.080}, {0.050, 0.054, 0.070});
     const double heart = ellipsoid(p, {0.045, 0.005, 0.096}, {0.055, 0.050, 0.040});

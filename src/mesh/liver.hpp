@@ -5,7 +5,7 @@
 
 namespace resect {
 
-/// The liver of make_liver: negative inside, about a distance in metres; x to the patient's left, y anterior,
+/// The liver of make_liver: negative inside, about a distance in metres; x to the patient's left, y posterior,
 /// z cranial.
 double liver_shape(const Vec3& p);
 

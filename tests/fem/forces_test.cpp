@@ -61,9 +61,9 @@ double energy_slope(TestBody& body, std::size_t node, std::size_t axis) {
     const float up = before + 1e-5F;
     const float down = before - 1e-5F;
     u = up;
-    const double above = elastic_energy(body.elements, body.nodes);
+    const double above = elastic_energy(body.elements, body.nodes.displacement);
     u = down;
-    const double below = elastic_energy(body.elements, body.nodes);
+    const double below = elastic_energy(body.elements, body.nodes.displacement);
     u = before;
     return (above - below) / (double(up) - double(down));
 }

@@ -103,7 +103,7 @@ TEST_CASE("energy does not drift without damping") {
     const StepConstants constants{float(0.5 * rest_bound(body)), 0, {}};
     const auto total = [&] {
         const double before = step(body, constants).kinetic; // at half steps
-        const double elastic = elastic_energy(body.elements, body.nodes);
+        const double elastic = elastic_energy(body.elements, body.nodes.displacement);
         const double after = step(body, constants).kinetic;
         return (before + after) / 2 + elastic;
     };
@@ -155,7 +155,7 @@ TEST_CASE("the internal work of a slow undamped motion is the elastic energy") {
     for (std::size_t n = 0; n < force.size(); ++n) {
         rest_of_work += 0.5 * double(constants.time_step) * dot(force[n], to_double(body.nodes.velocity[n]));
     }
-    CHECK(work + rest_of_work == doctest::Approx(elastic_energy(body.elements, body.nodes)).epsilon(1e-3));
+    CHECK(work + rest_of_work == doctest::Approx(elastic_energy(body.elements, body.nodes.displacement)).epsilon(1e-3));
 }
 
 TEST_CASE("the first axial frequency of a bar is that of the wave equation within 2 %") {
@@ -226,26 +226,35 @@ TEST_CASE("the out-of-balance force is the applied one at rest and vanishes in e
     const StepConstants constants{float(0.5 * rest_bound(body)), 20, {0, 0, -1.0F}};
     const Range all = {0, node_count(body)};
     all_forces(body);
-    const Residual start = out_of_balance(body.elements, body.nodes, constants, all);
-    CHECK(start.out_of_balance == start.applied);
-    CHECK(start.applied > 0);
+    const auto squares = [&](auto force) {
+        double sum = 0;
+        for (Index node = all.begin; node < all.end; ++node) {
+            if (body.nodes.inverse_mass[row(node)] == 0) { continue; }
+            const Vec3 f = force(node);
+            sum += dot(f, f);
+        }
+        return sum;
+    };
+    const auto net = [&](Index node) { return net_force(body.elements, body.nodes, constants, node); };
+    const double applied = squares([&](Index node) { return applied_force(body.nodes, constants, node); });
+    CHECK(squares(net) == applied);
+    CHECK(applied > 0);
     for (int i = 0; i < 3000; ++i) {
         step(body, constants);
     }
     all_forces(body);
-    const Residual end = out_of_balance(body.elements, body.nodes, constants, all);
-    CHECK(std::sqrt(end.out_of_balance / end.applied) < 1e-4);
+    CHECK(std::sqrt(squares(net) / applied) < 1e-4);
 }
 
 namespace {
 
-/// What a free block with the automatic viscosity comes to in 3000 steps at half the bound.
+/// What a free block with the automatic viscosity comes to in 3000 of the steps that a simulation takes.
 StrainCheck strain_after(const std::function<Vec3(const Vec3&)>& displacement) {
     TestBody body = make_cube(0.1 * rest_bound(make_cube()));
     for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n) {
         body.nodes.displacement[n] = to_float(displacement(body.mesh.nodes[n]));
     }
-    const StepConstants constants{float(0.5 * rest_bound(body)), 2, {}};
+    const StepConstants constants{float(0.6 * rest_bound(body)), 2, {}};
     for (int i = 0; i < 3000; ++i) {
         step(body, constants);
     }
