@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "base/clock.hpp"
+#include "sim/engine.hpp"
+
+namespace resect {
+
+namespace {
+
+Edge between(const Edge& a, const Edge& b, double t) {
+    return {a.heel + t * (b.heel - a.heel), a.tip + t * (b.tip - a.tip)};
+}
+
+/// New rows start with the motion of the node that they come from, now and at the start of the sweep.
+void append_nodes(Engine& engine, std::span<const Delta::NewNode> added) {
+    NodeArrays& nodes = engine.nodes;
+    const auto repeat = [](std::vector<Vec3f>& array, Index source) {
+        const Vec3f value = array[row(source)];
+        array.push_back(value);
+    };
+    for (const Delta::NewNode& node : added) {
+        repeat(nodes.rest, node.source);
+        repeat(nodes.displacement, node.source);
+        repeat(nodes.velocity, node.source);
+        repeat(engine.swept, node.source);
+        nodes.next_displacement.emplace_back();
+        nodes.next_velocity.emplace_back();
+        nodes.load.emplace_back();
+        nodes.mass.push_back(0);
+        nodes.inverse_mass.push_back(0);
+    }
+}
+
+/// Follows a change of S in the packed arrays; everything precomputed is copied, nothing computed anew.
+void apply_delta(Engine& engine) {
+    const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
+    const Delta& delta = engine.delta;
+    append_nodes(engine, delta.nodes);
+    for (const Delta::NewCopy& copy : delta.copies) {
+        append_copy_of(engine.elements, copy.parent);
+        const float density = engine.copy_density[row(copy.parent)];
+        engine.copy_density.push_back(density);
+    }
+    for (const Delta::Corner& corner : delta.corners) {
+        set_corner(engine.elements, corner.copy, corner.corner, corner.node);
+    }
+    for (const Index copy : delta.weighed) {
+        const Index element = mesh.copy_element[row(copy)];
+        set_weight(engine.elements, copy, mesh.copy_weight[row(copy)],
+                   engine.model.rest[row(element)].volume);
+    }
+    relink_corners(engine.elements, delta.touched_nodes, static_cast<Index>(engine.nodes.mass.size()));
+    update_conditions(engine, delta.touched_nodes);
+}
+
+/// Sweeps a blade to `to`. The first sweep since the tissue moved takes that motion in, later ones see it
+/// still.
+void sweep_one(Engine& engine, Index blade, const Edge& to, bool first, CutReport& report) {
+    // With plain copies a cut adds elastic energy out of nothing; the account of internal work takes it over.
+    const bool adds_energy = engine.model.weights == Weights::copy;
+    const double elastic = adds_energy ? elastic_energy(engine.elements, engine.nodes.displacement) : 0;
+    const std::vector<Vec3f>& before = first ? engine.swept : engine.nodes.displacement;
+    engine.delta = {};
+    sweep_blade(*engine.cutter, blade, to, before, engine.nodes.displacement, engine.delta, report);
+    Stopwatch watch;
+    if (engine.delta.touched_nodes.empty()) { return; }
+    apply_delta(engine);
+    report.us.quantities += watch.lap();
+    if (adds_energy) {
+        engine.work.internal += elastic_energy(engine.elements, engine.nodes.displacement) - elastic;
+    }
+}
+
+/// Takes the share of the way that falls to one of `left` steps.
+void follow(Engine& engine, BladeWay& way, std::int64_t left, CutReport& report) {
+    bool first = true;
+    const auto sweep_to = [&](const Edge& pose) {
+        way.at = pose;
+        sweep_one(engine, way.blade, pose, std::exchange(first, false), report);
+    };
+    double share = (static_cast<double>(way.poses.size()) - way.begun) / static_cast<double>(left);
+    while (!way.poses.empty() && (left == 1 || way.begun + share >= 1)) {
+        share -= 1 - way.begun;
+        way.begun = 0;
+        sweep_to(way.poses.front());
+        way.poses.erase(way.poses.begin());
+    }
+    if (!way.poses.empty() && share > 0) {
+        sweep_to(between(way.at, way.poses.front(), share / (1 - way.begun)));
+        way.begun += share;
+    }
+    if (first) { sweep_to(way.at); } // the tissue may move onto a blade at rest
+}
+
+} // namespace
+
+void sweep_blades(Engine& engine, std::int64_t left, CutReport& report) {
+    for (BladeWay& way : engine.blades) {
+        follow(engine, way, left, report);
+    }
+    engine.swept = engine.nodes.displacement;
+}
+
+void sweep_still(Engine& engine, Index blade, const Edge& to, CutReport& report) {
+    sweep_one(engine, blade, to, false, report);
+}
+
+} // namespace resect

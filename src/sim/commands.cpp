@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "sim/engine.hpp"
+
+namespace resect {
+
+namespace {
+
+constexpr Index blades_at_most = 64;
+constexpr double farthest = 1e6;     // m; beyond it a pose is a mistake
+constexpr double most_gravity = 1e5; // m/s^2
+
+Result<void> check_blade(Index blade) {
+    if (0 <= blade && blade < blades_at_most) { return {}; }
+    return Error{fmt::format("blade {}: blades are numbered 0 to {}", blade, blades_at_most - 1)};
+}
+
+std::vector<BladeWay>::iterator find_blade(Engine& engine, Index blade) {
+    return std::find_if(engine.blades.begin(), engine.blades.end(),
+                        [blade](const BladeWay& way) { return way.blade >= blade; });
+}
+
+bool is_there(const Engine& engine, std::vector<BladeWay>::iterator way, Index blade) {
+    return way != engine.blades.end() && way->blade == blade;
+}
+
+Result<void> apply_one(Engine& engine, const MoveBlade& move) {
+    if (const Result<void> checked = check_blade(move.blade); !checked) { return checked; }
+    if (const Result<void> checked = check_edge(move.to); !checked) {
+        return Error{fmt::format("blade {}: {}", move.blade, checked.error().message)};
+    }
+    const auto way = find_blade(engine, move.blade);
+    if (is_there(engine, way, move.blade)) {
+        way->poses.push_back(move.to);
+        return {};
+    }
+    if (engine.blades.empty()) { engine.swept = engine.nodes.displacement; }
+    engine.blades.insert(way, {.blade = move.blade, .at = move.to});
+    place_blade(*engine.cutter, move.blade, move.to);
+    return {};
+}
+
+Result<void> apply_one(Engine& engine, const LiftBlade& lift) {
+    if (const Result<void> checked = check_blade(lift.blade); !checked) { return checked; }
+    const auto way = find_blade(engine, lift.blade);
+    if (!is_there(engine, way, lift.blade)) {
+        return Error{
+            fmt::format("blade {}: is not there to be lifted; place it with MoveBlade first", lift.blade)};
+    }
+    engine.blades.erase(way);
+    lift_blade(*engine.cutter, lift.blade);
+    return {};
+}
+
+Result<void> check_prescription(const Engine& engine, const Prescribe& told) {
+    const Index count = static_cast<Index>(engine.model.elements.nodes.size());
+    for (const Index node : told.nodes) {
+        if (node < 0 || node >= count) {
+            return Error{fmt::format("prescribe: node {} is not one of the body's {} nodes", node, count)};
+        }
+    }
+    if (!told.displacement.empty() && told.displacement.size() != told.nodes.size()) {
+        return Error{
+            fmt::format("prescribe: {} displacements for {} nodes; give one a node, or none to let go",
+                        told.displacement.size(), told.nodes.size())};
+    }
+    for (std::size_t i = 0; i < told.displacement.size(); ++i) {
+        if (!(length(told.displacement[i]) <= 1e3 * engine.model.size)) {
+            return Error{fmt::format(
+                "prescribe: node {}: a displacement must be finite and below a thousand body sizes",
+                told.nodes[i])};
+        }
+    }
+    return {};
+}
+
+Result<void> apply_one(Engine& engine, const Prescribe& told) {
+    if (const Result<void> checked = check_prescription(engine, told); !checked) { return checked; }
+    for (std::size_t i = 0; i < told.nodes.size(); ++i) {
+        if (told.displacement.empty()) {
+            engine.prescribed.erase(told.nodes[i]);
+        } else {
+            engine.prescribed[told.nodes[i]] = told.displacement[i];
+        }
+    }
+    update_all_conditions(engine);
+    return {};
+}
+
+Result<void> apply_one(Engine& engine, const SetGravity& set) {
+    if (const Result<void> checked = check_gravity(set.gravity); !checked) { return checked; }
+    engine.constants.gravity = to_float(set.gravity);
+    return {};
+}
+
+} // namespace
+
+Result<void> check_edge(const Edge& edge) {
+    const auto sound = [](const Vec3& p) {
+        return std::all_of(p.begin(), p.end(), [](double x) { return std::abs(x) <= farthest; });
+    };
+    if (!sound(edge.heel) || !sound(edge.tip)) {
+        return Error{fmt::format("heel and tip must be finite and within {:g} m of the origin", farthest)};
+    }
+    if (!(length(edge.heel - edge.tip) > 0)) {
+        return Error{"heel and tip are the same point; give it a length"};
+    }
+    return {};
+}
+
+Result<void> check_gravity(const Vec3& gravity) {
+    if (length(gravity) <= most_gravity) { return {}; }
+    return Error{fmt::format("gravity ({:g}, {:g}, {:g}): must be finite and below {:g} m/s^2", gravity[0],
+                             gravity[1], gravity[2], most_gravity)};
+}
+
+Result<void> apply_command(Engine& engine, const Command& command) {
+    const Result<void> applied = std::visit([&](const auto& one) { return apply_one(engine, one); }, command);
+    if (applied) { engine.record.push_back({engine.step, command}); }
+    return applied;
+}
+
+} // namespace resect

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "resect/simulation.hpp"
+
+#include "base/index.hpp"
+#include "base/parallel.hpp"
+#include "cut/cutter.hpp"
+#include "fem/elements.hpp"
+#include "fem/step.hpp"
+
+namespace resect {
+
+inline constexpr double safety_factor = 0.6;       // of the rest bound (docs/method.md, "The step")
+inline constexpr double viscous_share = 0.1;       // automatic viscous time over the rest bound
+inline constexpr std::int64_t check_interval = 50; // steps between two looks at the strain
+
+/// Constant after creation.
+struct Model {
+    TetMesh elements = {};
+    std::vector<RestElement> rest = {}; // [element]
+    std::vector<Material> materials = {};
+    std::vector<Index> region = {};        // [element] row of materials
+    std::vector<double> viscous_time = {}; // [material] s
+    std::vector<std::pair<Index, Vec3>> loads = {};
+    Weights weights = Weights::fraction;
+    double rest_bound = 0; // s
+    double size = 0;       // diagonal of the rest box, m
+};
+
+/// A blade on its way: poses that the next steps have yet to sweep, in order.
+struct BladeWay {
+    Index blade = 0;
+    Edge at = {};
+    std::vector<Edge> poses = {};
+    double begun = 0; // share of the way from the pose before to poses.front() that is behind it
+};
+
+/// What left the motion, J.
+struct Work {
+    double internal = 0; // taken by the internal forces, elastic and viscous together
+    double damping = 0;  // by mass-proportional damping
+    double settling = 0; // by settle's resets of the velocity
+};
+
+struct Engine {
+    Model model = {};
+    CutterPtr cutter = {};
+    Elements elements = {};
+    NodeArrays nodes = {};
+    StepConstants constants = {};
+    double time_step = 0; // s
+    Workers workers;
+
+    std::map<Index, Vec3> prescribed = {}; // displacement by row of Body::elements.nodes, m
+    std::vector<BladeWay> blades = {};     // in id order
+    std::vector<Vec3f> swept = {};         // displacement up to which blades have swept [node]
+    std::vector<Recorded> record = {};
+    std::int64_t step = 0;        // since creation
+    std::int64_t clock_start = 0; // step at which time is zero
+    double carried = 0;           // s asked for and not yet stepped
+
+    Work work = {};
+    double elastic_start = 0; // J
+    double kinetic = 0;       // J, at the last half step
+    Strain strain = {};
+    double live_bound = 0; // s
+
+    std::vector<std::uint8_t> fixed = {}; // [node] 1: held or prescribed
+    std::vector<float> copy_density = {}; // [copy] kg/m^3
+
+    std::vector<StepSums> sums = {};            // scratch of a step [chunk]
+    std::vector<StrainCheck> strain_parts = {}; // scratch of a check [chunk]
+    Delta delta = {};                           // scratch of a sweep
+
+    explicit Engine(int threads) : workers(threads) {}
+};
+
+// create.cpp
+Result<std::unique_ptr<Engine>> build_engine(Setup setup);
+
+// conditions.cpp: who is held, prescribed and loaded
+/// Masses, holds and loads of the listed nodes, from S.
+void update_conditions(Engine& engine, std::span<const Index> nodes);
+void update_all_conditions(Engine& engine);
+
+// step.cpp
+/// Forces of the present state, for node_update and settle.
+void compute_forces(Engine& engine);
+/// One step of the motion; false: it diverged, and the state is the one before. After it, nodes.next_* hold
+/// the state before.
+bool step_motion(Engine& engine);
+
+// watch.cpp
+void check_strain_now(Engine& engine);
+/// The element that went wrong in a step that step_motion refused, and why, in words.
+Index find_diverged_element(const Engine& engine, std::string& reason);
+
+// blades.cpp
+/// Sweeps the blades' next poses while the nodes move from where they were swept last to now; `left` counts
+/// the sweeps, this one included, over which the remaining poses are spread.
+void sweep_blades(Engine& engine, std::int64_t left, CutReport& report);
+/// Sweeps one blade through tissue that is held still.
+void sweep_still(Engine& engine, Index blade, const Edge& to, CutReport& report);
+
+// commands.cpp
+Result<void> check_edge(const Edge& edge);
+Result<void> check_gravity(const Vec3& gravity);
+Result<void> apply_command(Engine& engine, const Command& command);
+
+// settle.cpp
+StepReport settle_engine(Engine& engine, double residual, double at_most);
+
+} // namespace resect

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "sim/engine.hpp"
+
+namespace resect {
+
+namespace {
+
+constexpr int calm_steps = 50;      // in a row below the residual
+constexpr int averaged_steps = 500; // of the running mean of forces
+constexpr double easing_time = 2;   // s, at most a third of the time given
+
+/// Nodes that count: free ones of held pieces. Pieces that nothing holds fall for ever.
+std::vector<Index> find_supported_nodes(Engine& engine) {
+    const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
+    const std::span<const Piece> pieces = update_pieces(*engine.cutter, engine.nodes.displacement);
+    const std::span<const Index> piece_of = piece_of_copy(*engine.cutter);
+    std::vector<std::uint8_t> supported(mesh.node_reference.size(), 0);
+    for (std::size_t copy = 0; copy < mesh.copy_node.size(); ++copy) {
+        const auto is_held = [&](const Piece& piece) { return piece.id == piece_of[copy] && piece.held; };
+        if (std::none_of(pieces.begin(), pieces.end(), is_held)) { continue; }
+        for (const Index node : mesh.copy_node[copy]) {
+            supported[row(node)] = 1;
+        }
+    }
+    std::vector<Index> nodes;
+    for (std::size_t node = 0; node < supported.size(); ++node) {
+        if (supported[node] != 0 && engine.nodes.inverse_mass[node] > 0) {
+            nodes.push_back(static_cast<Index>(node));
+        }
+    }
+    return nodes;
+}
+
+/// The load that is out of balance at the start is taken on gradually, so that the body does not swing out
+/// beyond where it comes to rest; from any start, not only from rest.
+class Easing {
+public:
+    explicit Easing(Engine& engine) : load_(engine.nodes.load), missing_(load_.size()) {
+        compute_forces(engine);
+        for (std::size_t node = 0; node < missing_.size(); ++node) {
+            missing_[node] = to_float(
+                net_force(engine.elements, engine.nodes, engine.constants, static_cast<Index>(node)));
+        }
+    }
+    /// From share 0, where all is in balance, to share 1, where the load is the body's own.
+    void ease(Engine& engine, double share) const {
+        const auto left = static_cast<float>(1 - share * share * (3 - 2 * share));
+        for (std::size_t node = 0; node < load_.size(); ++node) {
+            engine.nodes.load[node] = share < 1 ? load_[node] - left * missing_[node] : load_[node];
+        }
+    }
+
+private:
+    std::vector<Vec3f> load_, missing_; // N
+};
+
+/// Out-of-balance over applied force, by their root sums of squares. The force is a running mean over
+/// `calm_steps` steps: in a single step it carries the rounding of single-precision displacements, 4e-4 of
+/// the weight at 100 kPa.
+class Balance {
+public:
+    explicit Balance(std::vector<Index> nodes) : nodes_(std::move(nodes)), mean_(nodes_.size()) {}
+
+    double watch(const Engine& engine) {
+        watched_ = std::min(watched_ + 1, averaged_steps);
+        double net = 0, applied = 0;
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            const Vec3 now = net_force(engine.elements, engine.nodes, engine.constants, nodes_[i]);
+            mean_[i] += (1.0 / watched_) * (now - mean_[i]);
+            const Vec3 force = applied_force(engine.nodes, engine.constants, nodes_[i]);
+            net += dot(mean_[i], mean_[i]);
+            applied += dot(force, force);
+        }
+        return applied > 0 ? std::sqrt(net / applied) : 0;
+    }
+    /// Without an applied force anything is in balance that settle is asked to look at.
+    bool is_loaded(const Engine& engine) const {
+        return std::any_of(nodes_.begin(), nodes_.end(), [&](Index node) {
+            return applied_force(engine.nodes, engine.constants, node) != Vec3{};
+        });
+    }
+
+private:
+    std::vector<Index> nodes_;
+    std::vector<Vec3> mean_; // N
+    int watched_ = 0;        // steps
+};
+
+void stop_motion(Engine& engine) {
+    engine.work.settling += engine.kinetic;
+    engine.kinetic = 0;
+    std::fill(engine.nodes.velocity.begin(), engine.nodes.velocity.end(), Vec3f{});
+}
+
+/// Kinetic damping (Day 1965, Cundall 1976): the motion is stopped whenever its kinetic energy has passed a
+/// peak, which is near where the forces balance.
+class KineticDamping {
+public:
+    void watch(Engine& engine) {
+        if (engine.kinetic < last_) {
+            stop_motion(engine);
+            last_ = 0;
+        } else {
+            last_ = engine.kinetic;
+        }
+    }
+
+private:
+    double last_ = 0;
+};
+
+/// Steps until calm; the report says how it ended.
+void step_to_rest(Engine& engine, double residual, double at_most, StepReport& report) {
+    Balance balance(find_supported_nodes(engine));
+    if (!balance.is_loaded(engine)) {
+        report.status = Status::ok;
+        return;
+    }
+    const Easing easing(engine);
+    KineticDamping damping;
+    const double eased = std::min(easing_time, at_most / 3) / engine.time_step;
+    double ratio = 1;
+    for (int calm = 0; static_cast<double>(report.steps) * engine.time_step < at_most; ++report.steps) {
+        const double share = std::min(1.0, static_cast<double>(report.steps + 1) / eased);
+        easing.ease(engine, share);
+        if (!step_motion(engine)) {
+            easing.ease(engine, 1);
+            report.status = Status::diverged;
+            report.element = find_diverged_element(engine, report.reason);
+            return;
+        }
+        if (share == 1) { ratio = balance.watch(engine); }
+        calm = ratio <= residual ? calm + 1 : 0;
+        if (calm == calm_steps) {
+            report.status = Status::ok;
+            return;
+        }
+        damping.watch(engine);
+        if (engine.step % check_interval == 0) { check_strain_now(engine); }
+    }
+    easing.ease(engine, 1);
+    report.reason =
+        fmt::format("not settled in {:g} s: {:.2g} of the applied force is out of balance, {:.2g} was "
+                    "asked for; allow more time, or a larger residual",
+                    at_most, ratio, residual);
+}
+
+} // namespace
+
+StepReport settle_engine(Engine& engine, double residual, double at_most) {
+    StepReport report{.status = Status::not_settled};
+    step_to_rest(engine, residual, at_most, report);
+    stop_motion(engine);
+    engine.strain = {};
+    check_strain_now(engine);
+    engine.clock_start = engine.step;
+    engine.carried = 0;
+    engine.swept = engine.nodes.displacement;
+    return report;
+}
+
+} // namespace resect

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "resect/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "base/hash.hpp"
+#include "sim/engine.hpp"
+
+namespace resect {
+
+namespace {
+
+constexpr double steps_at_most = 1e10; // of one advance
+constexpr double sweep_every = 1e-3;   // s, where steps are shorter
+constexpr double sweep_reach = 0.25;   // share of a mean element that a blade may move in one sweep of cut()
+constexpr double sweeps_at_most = 20000; // of one cut()
+constexpr Index blade_of_cut = 64;       // beside the caller's own
+
+StepReport diverged(Engine& engine, StepReport report) {
+    report.status = Status::diverged;
+    report.element = find_diverged_element(engine, report.reason);
+    return report;
+}
+
+double mean_element_size(const Engine& engine) {
+    double volume = 0;
+    for (const RestElement& rest : engine.model.rest) {
+        volume += rest.volume;
+    }
+    return std::cbrt(volume / static_cast<double>(engine.model.rest.size()));
+}
+
+} // namespace
+
+Simulation::Simulation(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+Result<Simulation> Simulation::create(Setup setup) {
+    Result<std::unique_ptr<Engine>> engine = build_engine(std::move(setup));
+    if (!engine) { return engine.error(); }
+    return Simulation(std::move(*engine));
+}
+
+Result<void> Simulation::apply(const Command& command) { return apply_command(*engine_, command); }
+
+StepReport Simulation::advance(double seconds) {
+    Engine& engine = *engine_;
+    StepReport report;
+    const double asked = (engine.carried + seconds) / engine.time_step;
+    if (!(seconds >= 0 && asked <= steps_at_most)) {
+        report.reason = fmt::format("advance({:g}): give seconds from 0 to {:g}", seconds,
+                                    steps_at_most * engine.time_step);
+        return report;
+    }
+    // The small excess lets n times a step of 1 / n make n steps, whatever the rounding.
+    const std::int64_t steps = static_cast<std::int64_t>(std::floor(asked + 1e-6));
+    engine.carried += seconds - static_cast<double>(steps) * engine.time_step;
+    const std::int64_t stride =
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(sweep_every / engine.time_step));
+    while (report.steps < steps) {
+        if (!step_motion(engine)) { return diverged(engine, report); }
+        ++report.steps;
+        const std::int64_t left = steps - report.steps;
+        if (!engine.blades.empty() && (report.steps % stride == 0 || left == 0)) {
+            sweep_blades(engine, (left + stride - 1) / stride + 1, report.cut);
+        }
+        if (engine.step % check_interval == 0) { check_strain_now(engine); }
+    }
+    report.cut.pieces = count_pieces(*engine.cutter);
+    return report;
+}
+
+StepReport Simulation::settle(double residual, double at_most) {
+    if (!(residual > 0 && at_most >= 0 && at_most / engine_->time_step <= steps_at_most)) {
+        return {.status = Status::not_settled, .reason = "settle: give a residual above 0 and a time from 0"};
+    }
+    StepReport report = settle_engine(*engine_, residual, at_most);
+    report.cut.pieces = count_pieces(*engine_->cutter);
+    return report;
+}
+
+Result<CutReport> Simulation::cut(Edge from, Edge to) {
+    for (const Edge& edge : {from, to}) {
+        if (const Result<void> checked = check_edge(edge); !checked) {
+            return Error{fmt::format("cut: {}", checked.error().message)};
+        }
+    }
+    const double travel = std::max(length(to.heel - from.heel), length(to.tip - from.tip));
+    const double sweeps =
+        std::clamp(std::ceil(travel / (sweep_reach * mean_element_size(*engine_))), 1.0, sweeps_at_most);
+    CutReport report;
+    place_blade(*engine_->cutter, blade_of_cut, from);
+    for (double sweep = 1; sweep <= sweeps; ++sweep) {
+        const double t = sweep / sweeps;
+        const Edge pose =
+            sweep == sweeps ? to
+                            : Edge{from.heel + t * (to.heel - from.heel), from.tip + t * (to.tip - from.tip)};
+        sweep_still(*engine_, blade_of_cut, pose, report);
+    }
+    lift_blade(*engine_->cutter, blade_of_cut);
+    report.pieces = count_pieces(*engine_->cutter);
+    return report;
+}
+
+Surface Simulation::surface(std::uint64_t since_revision) {
+    return update_surface(*engine_->cutter, engine_->nodes.displacement, since_revision);
+}
+
+Nodes Simulation::nodes() const {
+    const NodeArrays& nodes = engine_->nodes;
+    return {.rest = nodes.rest,
+            .displacement = nodes.displacement,
+            .velocity = nodes.velocity,
+            .mass = nodes.mass,
+            .fixed = engine_->fixed,
+            .reference = simulation_mesh(*engine_->cutter).node_reference};
+}
+
+Copies Simulation::copies() const {
+    const SimulationMesh& mesh = simulation_mesh(*engine_->cutter);
+    return {.node = mesh.copy_node,
+            .element = mesh.copy_element,
+            .piece = piece_of_copy(*engine_->cutter),
+            .fraction = mesh.copy_fraction};
+}
+
+Body Simulation::material() const {
+    Body body = material_body(*engine_->cutter);
+    body.region = engine_->model.region;
+    return body;
+}
+
+std::vector<double> Simulation::von_mises() const {
+    std::vector<double> stress(row(engine_->elements.count));
+    for (std::size_t copy = 0; copy < stress.size(); ++copy) {
+        stress[copy] = von_mises_stress(engine_->elements, engine_->nodes, static_cast<Index>(copy));
+    }
+    return stress;
+}
+
+std::span<const Piece> Simulation::pieces() {
+    return update_pieces(*engine_->cutter, engine_->nodes.displacement);
+}
+
+std::span<const Recorded> Simulation::record() const { return engine_->record; }
+
+/// All at the half step behind, where the velocity is: there the works of the dampings and the energies
+/// balance.
+Energies Simulation::energies() const {
+    const Engine& engine = *engine_;
+    const NodeArrays& nodes = engine.nodes;
+    const Vec3 gravity = to_double(engine.constants.gravity);
+    const auto half_step = static_cast<float>(engine.time_step / 2);
+    Energies energies{.kinetic = engine.kinetic};
+    std::vector<Vec3f> behind(nodes.mass.size());
+    for (std::size_t node = 0; node < behind.size(); ++node) {
+        behind[node] = nodes.displacement[node] - half_step * nodes.velocity[node];
+        energies.gravity -= static_cast<double>(nodes.mass[node]) * dot(gravity, to_double(behind[node]));
+    }
+    energies.elastic = elastic_energy(engine.elements, behind);
+    const double viscous = engine.work.internal - (energies.elastic - engine.elastic_start);
+    energies.damped = engine.work.damping + engine.work.settling + viscous;
+    return energies;
+}
+
+TimeStep Simulation::time_step() const {
+    return {
+        .used = engine_->time_step, .bound = engine_->model.rest_bound, .live_bound = engine_->live_bound};
+}
+
+Strain Simulation::strain() const { return engine_->strain; }
+
+double Simulation::time() const {
+    return static_cast<double>(engine_->step - engine_->clock_start) * engine_->time_step;
+}
+
+const char* instruction_set() {
+#if defined(__x86_64__)
+    return "sse2";
+#elif defined(__aarch64__)
+    return "neon";
+#else
+    return "scalar";
+#endif
+}
+
+std::int64_t Simulation::steps() const { return engine_->step; }
+
+std::uint64_t Simulation::hash() const {
+    const NodeArrays& nodes = engine_->nodes;
+    return Hash()
+        .add(std::span<const Vec3f>(nodes.displacement))
+        .add(std::span<const Vec3f>(nodes.velocity))
+        .add(hash_topology(*engine_->cutter))
+        .add(engine_->step)
+        .value();
+}
+
+} // namespace resect
