@@ -1,6 +1,115 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
+#include <fmt/format.h>
 
-#include "resect/version.hpp"
+#include "options.hpp"
 
-int main() { std::printf("resect %s\n", resect::version); }
+namespace cli {
+
+int refuse(const std::string& line) {
+    fmt::print(stderr, "resect: {}\n", line);
+    return refused;
+}
+
+} // namespace cli
+
+namespace {
+
+// CLI11's own message may run over several lines; the contract is one.
+std::string one_line(std::string text) {
+    for (char& c : text) {
+        c = c == '\n' ? ' ' : c;
+    }
+    return text;
+}
+
+void add_run(CLI::App& app, cli::RunOptions& options, int& status) {
+    CLI::App* command = app.add_subcommand("run", "run a scene");
+    command->add_option("scene", options.scene, "scene file (JSON)")->required();
+    command->add_option("--seconds", options.seconds, "simulated time instead of the scene's duration")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--out", options.out, "folder for meshes, surfaces and the report");
+    command->add_option("--threads", options.threads, "threads; 0: one a core")->check(CLI::Range(0, 256));
+    command->add_option("--set", options.overrides, "scene values, as key=value")->take_all();
+    command->add_option("--json", options.json, "file for the report, or - for standard output");
+    command->callback([&] { status = cli::run(options); });
+}
+
+void add_mesh(CLI::App& app, cli::MeshOptions& options, int& status) {
+    CLI::App* command = app.add_subcommand("mesh", "make the mesh of a body");
+    command->add_option("body", options.source, "liver or block")->required();
+    command
+        ->add_option("-o,--out", options.out, "mesh file (.vtu .vtk .msh), or surface (.obj .stl .ply .vtp)")
+        ->required();
+    command->add_option("--elements", options.lattice.elements, "number of elements of a lattice body");
+    command->add_option("--spacing", options.lattice.spacing, "lattice spacing, m");
+    command->add_option("--refine", options.lattice.refine, "levels by which the boundary is finer");
+    command->add_option("--size", options.size, "of a block, m")->expected(3);
+    command->add_option("--cells", options.cells, "of a block")->expected(3);
+    command->add_option("--split", options.split, "of a block's cells")->check(CLI::IsMember({"six", "bcc"}));
+    command->callback([&] { status = cli::mesh(options); });
+}
+
+void add_info(CLI::App& app, std::string& path, int& status) {
+    CLI::App* command = app.add_subcommand("info", "what a mesh file holds, its quality and its stable step");
+    command->add_option("file", path, "tet mesh: .msh .vtk .vtu")->required();
+    command->callback([&] { status = cli::info(path); });
+}
+
+void add_picture(CLI::App& app, cli::PictureOptions& options, int& status) {
+    CLI::App* command = app.add_subcommand("picture", "draw surfaces (.vtp, .obj) as one PNG");
+    command->add_option("surface", options.surfaces, "several make a strip with one camera")->required();
+    command->add_option("-o,--out", options.out, "PNG file")->required();
+    for (const char* passed : {"--size", "--camera", "--view", "--blade", "--title"}) {
+        command->add_option_function<std::string>(
+            passed,
+            [&options, passed](const std::string& value) {
+                options.rest.insert(options.rest.end(), {passed, value});
+            },
+            "see docs/manual.md");
+    }
+    command->callback([&] { status = cli::picture(options); });
+}
+
+void add_bench(CLI::App& app, cli::BenchOptions& options, int& status) {
+    CLI::App* command = app.add_subcommand("bench", "measure this machine with this program");
+    command->add_option("name", options.names, "step, cut; all without a name");
+    command->add_option("--threads", options.threads, "threads; 0: one a core")->check(CLI::Range(0, 256));
+    command->add_option("--json", options.json, "file for the figures, or - for standard output");
+    command->callback([&] { status = cli::bench(options); });
+}
+
+int run_program(int argc, char** argv) {
+    CLI::App app("Resect: real-time cutting of nonlinear soft tissue", "resect");
+    app.set_version_flag("--version", fmt::format("resect {}", resect::version));
+    app.require_subcommand(1);
+    int status = cli::done;
+    cli::RunOptions run;
+    cli::MeshOptions mesh;
+    std::string info;
+    cli::PictureOptions picture;
+    cli::BenchOptions bench;
+    add_run(app, run, status);
+    add_mesh(app, mesh, status);
+    add_info(app, info, status);
+    add_picture(app, picture, status);
+    add_bench(app, bench, status);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) { return app.exit(asked); } catch (const CLI::ParseError& error) {
+        return cli::refuse(one_line(error.what()) + "; see resect --help");
+    }
+    return status;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run_program(argc, argv);
+    } catch (const std::bad_alloc&) {
+        return cli::refuse("out of memory; make the mesh smaller");
+    } catch (const std::exception& error) { return cli::refuse(one_line(error.what())); }
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "options.hpp"
+#include "report.hpp"
+#include "samples.hpp"
+
+namespace cli {
+
+namespace {
+
+using namespace resect;
+using Json = nlohmann::ordered_json;
+
+constexpr int repeats = 5;
+constexpr double sample_time = 0.2; // s of wall clock
+
+struct NamedBody {
+    std::string name = {};
+    Body body = {};
+};
+
+/// Held at its left end, so that gravity deforms it as in use.
+Setup hold_left(Body body, int threads) {
+    double left = body.elements.nodes.front()[0];
+    for (const Vec3& node : body.elements.nodes) {
+        left = std::min(left, node[0]);
+    }
+    Setup setup{.body = std::move(body), .damping = 2, .threads = threads};
+    const double depth = setup.body.lattice_spacing > 0 ? 3 * setup.body.lattice_spacing : 1e-6;
+    setup.fixed = {{.box = {.lo = {left - 1, -10, -10}, .hi = {left + depth, 10, 10}}}};
+    return setup;
+}
+
+/// Element updates a second over whole steps: the best of some samples, and the median.
+Json bench_step(NamedBody named, int threads) {
+    const std::size_t elements = named.body.elements.tets.size();
+    Simulation simulation = must(Simulation::create(hold_left(std::move(named.body), threads)));
+    const double step = simulation.time_step().used;
+    simulation.advance(50 * step);
+    Samples rates;
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+        Timer timer;
+        double wall = 0;
+        std::int64_t steps = 0;
+        while (wall < sample_time) {
+            steps += simulation.advance(20 * step).steps;
+            wall += timer.lap();
+        }
+        rates.add(static_cast<double>(steps) * static_cast<double>(elements) / wall);
+    }
+    const double best = rates.percentile(1);
+    return {{"mesh", named.name},
+            {"elements", elements},
+            {"threads", threads},
+            {"updates_per_s", {{"best", best}, {"median", rates.percentile(0.5)}}},
+            {"step_us", 1e6 * static_cast<double>(elements) / best},
+            {"real_time_factor", step * best / static_cast<double>(elements)}};
+}
+
+/// A plane through the middle, in one stroke of the tissue held still: microseconds by stage.
+Json bench_cut(NamedBody named) {
+    Box box{named.body.elements.nodes.front(), named.body.elements.nodes.front()};
+    for (const Vec3& node : named.body.elements.nodes) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box.lo[axis] = std::min(box.lo[axis], node[axis]);
+            box.hi[axis] = std::max(box.hi[axis], node[axis]);
+        }
+    }
+    const std::size_t elements = named.body.elements.tets.size();
+    Simulation simulation = must(Simulation::create({.body = std::move(named.body), .threads = 1}));
+    const double x = 0.47 * box.lo[0] + 0.53 * box.hi[0], margin = 0.01;
+    const auto edge = [&](double z) {
+        return Edge{{x, box.hi[1] + margin, z}, {x + 0.003, box.lo[1] - margin, z}};
+    };
+    const CutReport cut = must(simulation.cut(edge(box.hi[2] + margin), edge(box.lo[2] - margin)));
+    const auto& us = cut.us;
+    const double total = us.detect + us.bisect + us.tear + us.derive + us.quantities + us.surface;
+    return {{"mesh", named.name},
+            {"elements", elements},
+            {"elements_cut", cut.elements_cut},
+            {"copies_added", cut.copies_added},
+            {"us",
+             {{"detect", us.detect},
+              {"bisect", us.bisect},
+              {"tear", us.tear},
+              {"derive", us.derive},
+              {"quantities", us.quantities},
+              {"surface", us.surface}}},
+            {"us_per_copy", cut.copies_added > 0 ? total / cut.copies_added : 0.0}};
+}
+
+std::vector<NamedBody> bench_bodies() {
+    std::vector<NamedBody> bodies;
+    bodies.push_back({"block 6k", must(make_block({0.1, 0.1, 0.1}, {10, 10, 10}))});
+    bodies.push_back({"block 50k", must(make_block({0.1, 0.1, 0.105}, {20, 20, 21}))});
+    bodies.push_back({"liver 6097", must(make_liver({.elements = 6097}))});
+    return bodies;
+}
+
+} // namespace
+
+int bench(const BenchOptions& options) {
+    for (const std::string& name : options.names) {
+        if (name != "step" && name != "cut") {
+            return refuse(fmt::format("bench: '{}' is not known; give step or cut", name));
+        }
+    }
+    const auto wanted = [&](const char* name) {
+        return options.names.empty() ||
+               std::find(options.names.begin(), options.names.end(), name) != options.names.end();
+    };
+    Json json;
+    json["resect_version"] = version;
+    json["isa"] = instruction_set();
+    const bool talk = options.json != "-";
+    if (wanted("step")) {
+        for (NamedBody& body : bench_bodies()) {
+            const Json row = bench_step(std::move(body), options.threads == 0 ? 1 : options.threads);
+            if (talk) {
+                fmt::print(
+                    "step  {:10} {:6.1f} M element updates/s, {:8.1f} us a step, {:6.1f} times real time\n",
+                    row["mesh"].get<std::string>(), 1e-6 * row["updates_per_s"]["best"].get<double>(),
+                    row["step_us"].get<double>(), row["real_time_factor"].get<double>());
+            }
+            json["step"].push_back(row);
+        }
+    }
+    if (wanted("cut")) {
+        for (NamedBody& body : bench_bodies()) {
+            const Json row = bench_cut(std::move(body));
+            if (talk) {
+                fmt::print("cut   {:10} {:6} elements cut, {:6.2f} us a copy\n",
+                           row["mesh"].get<std::string>(), row["elements_cut"].get<int>(),
+                           row["us_per_copy"].get<double>());
+            }
+            json["cut"].push_back(row);
+        }
+    }
+    if (options.json.empty()) { return done; }
+    const Result<void> written = write_text(options.json, json.dump(2) + "\n");
+    return written ? done : refuse(written.error().message);
+}
+
+} // namespace cli

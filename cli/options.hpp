@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "resect/resect.hpp"
+
+namespace cli {
+
+/// Exit statuses, a contract: done; the physics or a check failed; the input or the command line was wrong.
+inline constexpr int done = 0, failed = 1, refused = 2;
+
+struct RunOptions {
+    std::string scene = {};
+    double seconds = -1; // below 0: the scene's duration
+    std::string out = {};
+    int threads = 0;
+    std::vector<std::string> overrides = {};
+    std::string json = {};
+};
+
+struct MeshOptions {
+    std::string source = {}; // liver, block or a file
+    std::string out = {};
+    resect::Lattice lattice = {};
+    std::vector<double> size = {0.1, 0.1, 0.1};
+    std::vector<int> cells = {10, 10, 10};
+    std::string split = "six";
+};
+
+struct PictureOptions {
+    std::vector<std::string> surfaces = {};
+    std::string out = {};
+    std::vector<std::string> rest = {}; // passed on to the picture page's command
+};
+
+struct BenchOptions {
+    std::vector<std::string> names = {};
+    std::string json = {};
+    int threads = 0;
+};
+
+int run(const RunOptions& options);
+int mesh(const MeshOptions& options);
+int info(const std::string& path);
+int picture(const PictureOptions& options);
+int bench(const BenchOptions& options);
+
+/// Prints the line and returns `refused`.
+int refuse(const std::string& line);
+
+} // namespace cli
