@@ -2,15 +2,15 @@
 import { Matrix4, PerspectiveCamera, Vector3 } from 'three';
 import type { View } from './request.ts';
 
-/** Where the eye sits, seen from the body. Front is +y: anterior of the built-in liver; z is up. */
+/** Where the eye sits, seen from the body. Front is -y: anterior of the built-in liver; z is up. */
 const eyeDirection: Record<View, [number, number, number]> = {
-  front: [0, 1, 0.12],
-  back: [0, -1, 0.12],
+  front: [0, -1, 0.12],
+  back: [0, 1, 0.12],
   left: [1, 0, 0.12],
   right: [-1, 0, 0.12],
-  above: [0, 0.02, 1],
-  below: [0, 0.02, -1],
-  three_quarter: [0.42, 1, 0.5],
+  above: [0, -0.02, 1],
+  below: [0, -0.02, -1],
+  three_quarter: [0.42, -1, 0.5],
 };
 
 const fieldOfView = 28;

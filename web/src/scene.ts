@@ -85,6 +85,7 @@ function addBody(scene: Scene, geometry: BufferGeometry, material: MeshStandardM
 /** A teal drape that runs out into the dark, so that no horizon cuts through the picture. */
 function createFloor(sky: SkyShadow, bounds: Sphere, height: number): Mesh {
   const material = new MeshStandardMaterial({ color: floorColour, roughness: 0.9 });
+  material.defines.SKY_GRAIN = '';
   const uniforms = { floorCentre: { value: bounds.center }, floorReach: { value: bounds.radius }, floorEnd: { value: background } };
   shadeBySky(material, sky, (shader) => {
     Object.assign(shader.uniforms, uniforms);
@@ -107,7 +108,7 @@ function addLamp(scene: Scene, bounds: Sphere, rotation: Euler): (pass: number) 
   lamp.castShadow = true;
   lamp.shadow.mapSize.set(1024, 1024);
   Object.assign(lamp.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 8 * reach });
-  lamp.shadow.normalBias = 0.012 * bounds.radius;
+  lamp.shadow.normalBias = 0.03 * bounds.radius;
   lamp.shadow.bias = -0.0015;
   lamp.shadow.radius = 2.5;
   lamp.target.position.copy(bounds.center);

@@ -84,8 +84,13 @@ uniform vec4 skyDirection[${tiles}];
 uniform float skyRadius;
 uniform vec2 skySeed;
 float openSky(vec3 normalInWorld) {
-  // A different offset for every pixel and pass turns the steps between hard shadows into an even blur.
+  // Another offset in every pass turns the steps between hard shadows into an even blur. On the floor, where they
+  // would show as rings, it also differs from pixel to pixel; on cut faces that grain would show.
+#ifdef SKY_GRAIN
   vec2 cell = fract(52.9829189 * fract(gl_FragCoord.xy * 0.06711056 + gl_FragCoord.yx * vec2(0.00583715, 0.0123)));
+#else
+  const vec2 cell = vec2(0.0);
+#endif
   float turn = 6.2831853 * fract(cell.x + skySeed.x);
   float spread = 0.014 * sqrt(fract(cell.y + skySeed.y));
   float open = 0.0;
