@@ -96,6 +96,10 @@ int run_program(int argc, char** argv) {
     add_info(app, info, status);
     add_picture(app, picture, status);
     add_bench(app, bench, status);
+    if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+        return cli::refuse(
+            fmt::format("'{}' is not a command; give run, mesh, info, picture or bench", argv[1]));
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) { return app.exit(asked); } catch (const CLI::ParseError& error) {

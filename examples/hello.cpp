@@ -7,10 +7,9 @@
 using namespace resect;
 
 int main() {
-    Simulation sim =
-        must(Simulation::create({.body = must(make_liver({.elements = 6097})),
-                                 .fixed = {{.box = {.lo = {-1, -1, -1}, .hi = {-0.04, 1, 1}}}},
-                                 .damping = 2}));
+    Simulation sim = must(Simulation::create({.body = must(make_liver({.elements = 6097})),
+                                              .fixed = {{.box = {.lo = {-1, -1, -1}, .hi = {-0.04, 1, 1}}}},
+                                              .damping = 2}));
     sim.settle();
     must(sim.apply(MoveBlade{.to = {{0, 0.1, 0.1}, {0, -0.1, 0.1}}}));
     must(sim.apply(MoveBlade{.to = {{0, 0.1, -0.15}, {0, -0.1, -0.15}}}));

@@ -16,18 +16,12 @@ struct Refused {
 
 [[noreturn]] inline void refuse(std::string message) { throw Refused{std::move(message)}; }
 
-// g++ 12 holds it for possible that the variant of a refused Result holds nothing.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wnull-dereference"
-
 /// The value; or its refusal goes on up, with `where` before it.
 template <class T>
 T value_or_refuse(Result<T> result, const std::string& where = {}) {
     if (!result) { refuse(where + result.error().message); }
     return std::move(*result);
 }
-
-#pragma GCC diagnostic pop
 
 /// What `read` returns, or the line with which it refused.
 template <class Read>

@@ -222,14 +222,16 @@ EdgeMap mark_surface_edges(const Shape& shape, const Draft& draft, double size) 
     return marks;
 }
 
-/// Lays the surface through the vertices that it nearly meets: cut close to a vertex, tets would be tiny, and a
-/// crossing kept away from the vertex instead would leave a pit. The vertices stay where they are, since those of
-/// the lattice carry the embedding.
+/// Lays the surface through the vertices that it nearly meets: cut close to a vertex, tets would be tiny, and
+/// a crossing kept away from the vertex instead would leave a pit. The vertices stay where they are, since
+/// those of the lattice carry the embedding.
 void snap_surface(const Shape& shape, double size, Draft& draft) {
     for (std::size_t vertex = 0; vertex < draft.values.size(); ++vertex) {
         double& value = draft.values[vertex];
         if (std::abs(value) > 4 * snapped * size) { continue; }
-        if (std::abs(estimate_distance(shape, draft.material.nodes[vertex], size)) < snapped * size) { value = 0; }
+        if (std::abs(estimate_distance(shape, draft.material.nodes[vertex], size)) < snapped * size) {
+            value = 0;
+        }
     }
 }
 

@@ -7,8 +7,8 @@
 // and of one shape; the material is what lies inside.
 namespace resect {
 
-/// Crossings of the boundary are kept this share of an edge away from its ends, so that no tiny tet arises; few
-/// are so near once the surface is snapped to the vertices that it nearly meets.
+/// Crossings of the boundary are kept this share of an edge away from its ends, so that no tiny tet arises;
+/// few are so near once the surface is snapped to the vertices that it nearly meets.
 inline constexpr double least_crossing = 0.05;
 
 Fault build_lattice_body(const Shape& shape, const Box& bounds, const LatticePlan& plan, Body& body);

@@ -5,8 +5,8 @@
 
 namespace resect {
 
-/// The liver of make_liver: negative inside, about a distance in metres; x to the patient's left, y posterior,
-/// z cranial.
+/// The liver of make_liver: negative inside, about a distance in metres; x to the patient's left, y
+/// posterior, z cranial.
 double liver_shape(const Vec3& p);
 
 /// Where the liver lies, with room to spare.

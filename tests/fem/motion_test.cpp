@@ -155,7 +155,8 @@ TEST_CASE("the internal work of a slow undamped motion is the elastic energy") {
     for (std::size_t n = 0; n < force.size(); ++n) {
         rest_of_work += 0.5 * double(constants.time_step) * dot(force[n], to_double(body.nodes.velocity[n]));
     }
-    CHECK(work + rest_of_work == doctest::Approx(elastic_energy(body.elements, body.nodes.displacement)).epsilon(1e-3));
+    CHECK(work + rest_of_work ==
+          doctest::Approx(elastic_energy(body.elements, body.nodes.displacement)).epsilon(1e-3));
 }
 
 TEST_CASE("the first axial frequency of a bar is that of the wave equation within 2 %") {

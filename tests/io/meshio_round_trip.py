@@ -98,7 +98,7 @@ def check(folder):
         same(name, copies.point_data[name], array(f"copies.{name}", "f4", 3))
     for name, kind in (("mass", "f4"), ("fixed", "u1"), ("reference_node", "i4")):
         same(name, copies.point_data[name], array(f"copies.{name}", kind))
-    for name, kind in (("fraction", "f4"), ("element", "i4"), ("piece", "i4"), ("von_mises", "f8")):
+    for name, kind in (("fraction", "f8"), ("element", "i4"), ("piece", "i4"), ("von_mises", "f8")):
         same(name, cell_data(copies, name), array(f"copies.{name}", kind))
 
     series = ElementTree.parse(os.path.join(folder, "series.pvd")).getroot()

@@ -57,7 +57,8 @@ struct SampleCopies {
     std::vector<Vec3f> rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1 / 3.0F}, {1, 1, 1}};
     std::vector<Vec3f> displacement = {{0.1F, 0, 0}, {0, 0.2F, 0}, {0, 0, 0.3F}, {1e-30F, 0, 0}, {-7, 0, 0}};
     std::vector<Vec3f> velocity = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}, {13, 14, 1e30F}};
-    std::vector<float> mass = {0.1F, 0.2F, 0.3F, 0.4F, 0.5F}, fraction = {0.25F, 1 / 3.0F};
+    std::vector<float> mass = {0.1F, 0.2F, 0.3F, 0.4F, 0.5F};
+    std::vector<double> fraction = {0.25, 1 / 3.0};
     std::vector<std::uint8_t> fixed = {1, 0, 0, 1, 0};
     std::vector<Index> reference = {5, 4, 3, 2, 5}, element = {9, 9}, piece = {1, 2};
     std::vector<std::array<Index, 4>> node = {{0, 1, 2, 3}, {1, 2, 3, 4}};

@@ -10,10 +10,6 @@
 
 namespace resect {
 
-// g++ 12 does not see that a Result without a value holds an Error (std::get_if may return null).
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wnull-dereference"
-
 /// What was refused, in its own words; empty if it was not.
 template <class T>
 std::string refusal_of(const Result<T>& result) {
@@ -29,7 +25,5 @@ T made(Result<T> result) {
     }
     return std::move(*result);
 }
-
-#pragma GCC diagnostic pop
 
 } // namespace resect

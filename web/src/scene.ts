@@ -85,7 +85,7 @@ function addBody(scene: Scene, geometry: BufferGeometry, material: MeshStandardM
 /** A teal drape that runs out into the dark, so that no horizon cuts through the picture. */
 function createFloor(sky: SkyShadow, bounds: Sphere, height: number): Mesh {
   const material = new MeshStandardMaterial({ color: floorColour, roughness: 0.9 });
-  material.defines.SKY_GRAIN = '';
+  material.defines = { ...material.defines, SKY_GRAIN: '' };
   const uniforms = { floorCentre: { value: bounds.center }, floorReach: { value: bounds.radius }, floorEnd: { value: background } };
   shadeBySky(material, sky, (shader) => {
     Object.assign(shader.uniforms, uniforms);
