@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
@@ -81,6 +82,12 @@ void add_bench(CLI::App& app, cli::BenchOptions& options, int& status) {
     command->callback([&] { status = cli::bench(options); });
 }
 
+bool has_command(const CLI::App& app, const std::string& name) {
+    const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App*) { return true; });
+    return std::any_of(commands.begin(), commands.end(),
+                       [&](const CLI::App* command) { return command->get_name() == name; });
+}
+
 int run_program(int argc, char** argv) {
     CLI::App app("Resect: real-time cutting of nonlinear soft tissue", "resect");
     app.set_version_flag("--version", fmt::format("resect {}", resect::version));
@@ -96,7 +103,7 @@ int run_program(int argc, char** argv) {
     add_info(app, info, status);
     add_picture(app, picture, status);
     add_bench(app, bench, status);
-    if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+    if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
         return cli::refuse(
             fmt::format("'{}' is not a command; give run, mesh, info, picture or bench", argv[1]));
     }
