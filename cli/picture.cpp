@@ -15,6 +15,7 @@ namespace {
 /// Runs a program found on the path and waits for it; 127: it could not be started.
 int run_and_wait(std::vector<std::string> words) {
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) {
         arguments.push_back(word.data());
     }

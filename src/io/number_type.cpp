@@ -58,6 +58,7 @@ template <class Number, class Out>
 std::vector<Out> decode_as(std::string_view bytes, bool big_endian) {
     std::vector<Out> values(bytes.size() / sizeof(Number));
     for (std::size_t i = 0; i < values.size(); ++i) {
+        // NOLINTNEXTLINE(bugprone-signed-char-misuse): Int8 is a number here, not a character.
         values[i] = static_cast<Out>(number_at<Number>(bytes.data() + i * sizeof(Number), big_endian));
     }
     return values;

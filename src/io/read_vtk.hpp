@@ -9,6 +9,6 @@
 namespace resect {
 
 /// A VTK legacy file, ASCII or binary. Throws Refused.
-Body read_vtk(std::string_view bytes, const std::string& file);
+Body read_vtk(std::string_view bytes, const std::string& name);
 
 } // namespace resect

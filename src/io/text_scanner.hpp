@@ -27,7 +27,7 @@ public:
     std::size_t count(const char* what, std::size_t least_bytes = 2);
     /// The next `size` bytes as they are.
     std::string_view bytes(std::size_t size, const char* what);
-    void expect(std::string_view word);
+    void expect(std::string_view expected);
     /// Goes on behind the next `text`.
     void skip_past(std::string_view text);
     bool continues_with(std::string_view text) const { return text_.substr(at_).starts_with(text); }

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/clock.hpp"
@@ -7,6 +10,9 @@
 namespace resect {
 
 namespace {
+
+constexpr double sweep_reach = 0.25;     // of a mean element that a blade moves in one sweep
+constexpr double sweeps_at_most = 20000; // of one move
 
 Edge between(const Edge& a, const Edge& b, double t) {
     return {a.heel + t * (b.heel - a.heel), a.tip + t * (b.tip - a.tip)};
@@ -72,12 +78,27 @@ void sweep_one(Engine& engine, Index blade, const Edge& to, bool first, CutRepor
     }
 }
 
+/// Sweeps a blade from one pose to the next in moves that are small beside an element, as crossings want
+/// them.
+void sweep_finely(Engine& engine, Index blade, const std::array<Edge, 2>& move, bool first,
+                  CutReport& report) {
+    const auto& [from, to] = move;
+    const double travel = std::max(length(to.heel - from.heel), length(to.tip - from.tip));
+    const double wanted = std::ceil(travel / (sweep_reach * engine.model.element_size));
+    const int sweeps = static_cast<int>(std::clamp(wanted, 1.0, sweeps_at_most));
+    for (int sweep = 1; sweep < sweeps; ++sweep) {
+        sweep_one(engine, blade, between(from, to, static_cast<double>(sweep) / sweeps), first && sweep == 1,
+                  report);
+    }
+    sweep_one(engine, blade, to, first && sweeps == 1, report);
+}
+
 /// Takes the share of the way that falls to one of `left` steps.
 void follow(Engine& engine, BladeWay& way, std::int64_t left, CutReport& report) {
     bool first = true;
     const auto sweep_to = [&](const Edge& pose) {
-        way.at = pose;
-        sweep_one(engine, way.blade, pose, std::exchange(first, false), report);
+        sweep_finely(engine, way.blade, {std::exchange(way.at, pose), pose}, std::exchange(first, false),
+                     report);
     };
     double share = (static_cast<double>(way.poses.size()) - way.begun) / static_cast<double>(left);
     while (!way.poses.empty() && (left == 1 || way.begun + share >= 1)) {
@@ -102,8 +123,8 @@ void sweep_blades(Engine& engine, std::int64_t left, CutReport& report) {
     engine.swept = engine.nodes.displacement;
 }
 
-void sweep_still(Engine& engine, Index blade, const Edge& to, CutReport& report) {
-    sweep_one(engine, blade, to, false, report);
+void sweep_still(Engine& engine, Index blade, const Edge& from, const Edge& to, CutReport& report) {
+    sweep_finely(engine, blade, {from, to}, false, report);
 }
 
 } // namespace resect

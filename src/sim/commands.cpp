@@ -28,8 +28,8 @@ bool is_there(const Engine& engine, std::vector<BladeWay>::iterator way, Index b
 }
 
 Result<void> apply_one(Engine& engine, const MoveBlade& move) {
-    if (const Result<void> checked = check_blade(move.blade); !checked) { return checked; }
-    if (const Result<void> checked = check_edge(move.to); !checked) {
+    if (Result<void> checked = check_blade(move.blade); !checked) { return checked; }
+    if (Result<void> checked = check_edge(move.to); !checked) {
         return Error{fmt::format("blade {}: {}", move.blade, checked.error().message)};
     }
     const auto way = find_blade(engine, move.blade);
@@ -44,7 +44,7 @@ Result<void> apply_one(Engine& engine, const MoveBlade& move) {
 }
 
 Result<void> apply_one(Engine& engine, const LiftBlade& lift) {
-    if (const Result<void> checked = check_blade(lift.blade); !checked) { return checked; }
+    if (Result<void> checked = check_blade(lift.blade); !checked) { return checked; }
     const auto way = find_blade(engine, lift.blade);
     if (!is_there(engine, way, lift.blade)) {
         return Error{
@@ -78,7 +78,7 @@ Result<void> check_prescription(const Engine& engine, const Prescribe& told) {
 }
 
 Result<void> apply_one(Engine& engine, const Prescribe& told) {
-    if (const Result<void> checked = check_prescription(engine, told); !checked) { return checked; }
+    if (Result<void> checked = check_prescription(engine, told); !checked) { return checked; }
     for (std::size_t i = 0; i < told.nodes.size(); ++i) {
         if (told.displacement.empty()) {
             engine.prescribed.erase(told.nodes[i]);
@@ -91,7 +91,7 @@ Result<void> apply_one(Engine& engine, const Prescribe& told) {
 }
 
 Result<void> apply_one(Engine& engine, const SetGravity& set) {
-    if (const Result<void> checked = check_gravity(set.gravity); !checked) { return checked; }
+    if (Result<void> checked = check_gravity(set.gravity); !checked) { return checked; }
     engine.constants.gravity = to_float(set.gravity);
     return {};
 }
@@ -118,7 +118,7 @@ Result<void> check_gravity(const Vec3& gravity) {
 }
 
 Result<void> apply_command(Engine& engine, const Command& command) {
-    const Result<void> applied = std::visit([&](const auto& one) { return apply_one(engine, one); }, command);
+    Result<void> applied = std::visit([&](const auto& one) { return apply_one(engine, one); }, command);
     if (applied) { engine.record.push_back({engine.step, command}); }
     return applied;
 }

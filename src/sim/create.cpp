@@ -36,10 +36,13 @@ Model build_model(Setup& setup) {
     model.weights = setup.cut.weights;
     model.size = rest_diagonal(model.elements);
     model.rest_bound = std::numeric_limits<double>::infinity();
+    double volume = 0;
     for (std::size_t element = 0; element < model.rest.size(); ++element) {
         const Material& material = model.materials[row(model.region[element])];
         model.rest_bound = std::min(model.rest_bound, rest_step_bound(model.rest[element], material));
+        volume += model.rest[element].volume;
     }
+    model.element_size = std::cbrt(volume / static_cast<double>(model.rest.size()));
     for (const Material& material : model.materials) {
         const bool chosen = material.viscous_time != automatic;
         model.viscous_time.push_back(chosen ? material.viscous_time : viscous_share * model.rest_bound);

@@ -29,8 +29,9 @@ struct Model {
     std::vector<double> viscous_time = {}; // [material] s
     std::vector<std::pair<Index, Vec3>> loads = {};
     Weights weights = Weights::fraction;
-    double rest_bound = 0; // s
-    double size = 0;       // diagonal of the rest box, m
+    double rest_bound = 0;   // s
+    double size = 0;         // diagonal of the rest box, m
+    double element_size = 0; // cube root of the mean element's volume, m
 };
 
 /// A blade on its way: poses that the next steps have yet to sweep, in order.
@@ -86,7 +87,7 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup);
 
 // conditions.cpp: who is held, prescribed and loaded
 /// Masses, holds and loads of the listed nodes, from S.
-void update_conditions(Engine& engine, std::span<const Index> nodes);
+void update_conditions(Engine& engine, std::span<const Index> touched);
 void update_all_conditions(Engine& engine);
 
 // step.cpp
@@ -106,7 +107,7 @@ Index find_diverged_element(const Engine& engine, std::string& reason);
 /// the sweeps, this one included, over which the remaining poses are spread.
 void sweep_blades(Engine& engine, std::int64_t left, CutReport& report);
 /// Sweeps one blade through tissue that is held still.
-void sweep_still(Engine& engine, Index blade, const Edge& to, CutReport& report);
+void sweep_still(Engine& engine, Index blade, const Edge& from, const Edge& to, CutReport& report);
 
 // commands.cpp
 Result<void> check_edge(const Edge& edge);

@@ -14,22 +14,12 @@ namespace {
 
 constexpr double steps_at_most = 1e10; // of one advance
 constexpr double sweep_every = 1e-3;   // s, where steps are shorter
-constexpr double sweep_reach = 0.25;   // share of a mean element that a blade may move in one sweep of cut()
-constexpr double sweeps_at_most = 20000; // of one cut()
-constexpr Index blade_of_cut = 64;       // beside the caller's own
+constexpr Index blade_of_cut = 64;     // beside the caller's own
 
 StepReport diverged(Engine& engine, StepReport report) {
     report.status = Status::diverged;
     report.element = find_diverged_element(engine, report.reason);
     return report;
-}
-
-double mean_element_size(const Engine& engine) {
-    double volume = 0;
-    for (const RestElement& rest : engine.model.rest) {
-        volume += rest.volume;
-    }
-    return std::cbrt(volume / static_cast<double>(engine.model.rest.size()));
 }
 
 } // namespace
@@ -89,18 +79,9 @@ Result<CutReport> Simulation::cut(Edge from, Edge to) {
             return Error{fmt::format("cut: {}", checked.error().message)};
         }
     }
-    const double travel = std::max(length(to.heel - from.heel), length(to.tip - from.tip));
-    const double sweeps =
-        std::clamp(std::ceil(travel / (sweep_reach * mean_element_size(*engine_))), 1.0, sweeps_at_most);
     CutReport report;
     place_blade(*engine_->cutter, blade_of_cut, from);
-    for (double sweep = 1; sweep <= sweeps; ++sweep) {
-        const double t = sweep / sweeps;
-        const Edge pose =
-            sweep == sweeps ? to
-                            : Edge{from.heel + t * (to.heel - from.heel), from.tip + t * (to.tip - from.tip)};
-        sweep_still(*engine_, blade_of_cut, pose, report);
-    }
+    sweep_still(*engine_, blade_of_cut, from, to, report);
     lift_blade(*engine_->cutter, blade_of_cut);
     report.pieces = count_pieces(*engine_->cutter);
     return report;

@@ -214,12 +214,13 @@ TEST_CASE("wrong scenes and command lines are refused in one line, with status 2
         {"", "subcommand"},
         {"run " + block + " --frobnicate", "frobnicate"},
     };
-    for (const auto& [words, named] : cases) {
+    for (const auto& one : cases) {
+        const std::string& words = one.first;
         CAPTURE(words);
         const Outcome outcome = run_resect(words);
         CAPTURE(outcome.err);
         CHECK(is_refusal(outcome));
-        CHECK(outcome.err.find(named) != std::string::npos);
+        CHECK(outcome.err.find(one.second) != std::string::npos);
     }
 }
 

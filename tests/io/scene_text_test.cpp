@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "io/outcome.hpp"
@@ -135,10 +136,11 @@ int check_documented(const json& schema, const std::string& path) {
     int keys = 0;
     if (schema.contains("items")) { keys += check_documented(schema["items"], path); }
     if (!schema.contains("properties")) { return keys; }
-    for (const auto& [key, property] : schema["properties"].items()) {
-        INFO(path, ".", key);
-        CHECK(property.value("description", "") != "");
-        keys += 1 + check_documented(property, path + "." + key);
+    for (const auto& entry : schema["properties"].items()) {
+        const std::string inner = fmt::format("{}.{}", path, entry.key());
+        CAPTURE(inner);
+        CHECK(entry.value().value("description", "") != "");
+        keys += 1 + check_documented(entry.value(), inner);
     }
     return keys;
 }
