@@ -78,7 +78,7 @@ Json bench_cut(NamedBody named) {
     };
     const CutReport cut = must(simulation.cut(edge(box.hi[2] + margin), edge(box.lo[2] - margin)));
     const auto& us = cut.us;
-    const double total = us.detect + us.bisect + us.tear + us.derive + us.quantities + us.surface;
+    const double total = us.detect + us.bisect + us.tear + us.derive + us.quantities;
     return {{"mesh", named.name},
             {"elements", elements},
             {"elements_cut", cut.elements_cut},
@@ -88,8 +88,7 @@ Json bench_cut(NamedBody named) {
               {"bisect", us.bisect},
               {"tear", us.tear},
               {"derive", us.derive},
-              {"quantities", us.quantities},
-              {"surface", us.surface}}},
+              {"quantities", us.quantities}}},
             {"us_per_copy", cut.copies_added > 0 ? total / cut.copies_added : 0.0}};
 }
 

@@ -52,7 +52,7 @@ void print(const resect::MeshInfo& info) {
     fmt::print("dihedral       {:.1f} to {:.1f} degrees\n", info.dihedral_min, info.dihedral_max);
     fmt::print("altitude       smallest {:.3g} m, median {:.3g} m\n", info.altitude_min,
                info.altitude_median);
-    fmt::print("fractions      {} elements partly filled, least share {:.2g}\n", info.elements_cut,
+    fmt::print("fractions      {} elements partly filled, least share {:.2g}\n", info.elements_partial,
                info.fraction_min);
     fmt::print("stable step    {:.4g} ms at rest for E 5000 Pa, nu 0.35, 1000 kg/m^3\n",
                1e3 * info.time_step_bound);

@@ -21,7 +21,7 @@ struct RunOptions {
 };
 
 struct MeshOptions {
-    std::string source = {}; // liver, block or a file
+    std::string source = {}; // liver or block
     std::string out = {};
     resect::Lattice lattice = {};
     std::vector<double> size = {0.1, 0.1, 0.1};

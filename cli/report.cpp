@@ -35,6 +35,8 @@ const char* name(Status status) {
         return "not_settled";
     case Status::diverged:
         return "diverged";
+    case Status::refused:
+        return "refused";
     }
     return "";
 }
@@ -81,6 +83,7 @@ void report_body(Json& json, const InitialFigures& initial, SceneRun& run) {
     json["pieces"] = pieces.size();
     json["piece_list"] = list_pieces(pieces);
     json["refused"] = figures.cut.refused;
+    if (figures.cut.refused > 0) { json["refused_reason"] = figures.cut.reason; }
     json["fixed_nodes"] = std::count(nodes.fixed.begin(), nodes.fixed.end(), 1);
     json["mass_kg"] = mass;
     json["mass_initial_kg"] = initial.mass;
@@ -104,7 +107,7 @@ void report_steps(Json& json, SceneRun& run) {
     json["steps"] = figures.steps;
     json["simulated_s"] = figures.simulated;
     json["wall_s"] = figures.wall;
-    json["real_time_factor"] = figures.wall > 0 ? figures.simulated / figures.wall : 0;
+    json["real_time_factor"] = real_time_factor(figures);
     json["element_updates_per_s"] = figures.wall > 0 ? figures.element_updates / figures.wall : 0;
     json["frames"] = figures.frame_ms.count();
     json["frame_ms"] = spread(figures.frame_ms);

@@ -19,9 +19,8 @@ void print_summary(const Scene& scene, const InitialFigures& initial, SceneRun& 
     const RunFigures& figures = run.figures();
     Simulation& simulation = run.simulation();
     const TimeStep step = simulation.time_step();
-    fmt::print("{}: {} elements, {} simulated s in {:.2f} s ({:.1f} times real time)\n", scene.name,
-               initial.elements, fmt::format("{:.2f}", figures.simulated), figures.wall,
-               figures.simulated / figures.wall);
+    fmt::print("{}: {} elements, {:.2f} simulated s in {:.2f} s ({:.1f} times real time)\n", scene.name,
+               initial.elements, figures.simulated, figures.wall, real_time_factor(figures));
     fmt::print("  cut      {} elements, {:.1f} cm^2; {} piece{}, open by {:.1f} mm\n",
                figures.cut.elements_cut, 1e4 * figures.cut.area, simulation.pieces().size(),
                simulation.pieces().size() == 1 ? "" : "s", 1e3 * find_opening(simulation.surface()));
@@ -39,12 +38,16 @@ void print_summary(const Scene& scene, const InitialFigures& initial, SceneRun& 
     }
 }
 
+double seconds_of(const RunOptions& options, const Scene& scene) {
+    return options.seconds >= 0 ? options.seconds : scene.duration;
+}
+
 /// What the scene does, with its files; an error where one could not be written.
 Result<void> simulate(const Scene& scene, const RunOptions& options, SceneRun& run, OutputFolder* folder) {
     Progress progress;
     progress.show(fmt::format("{}: settling", scene.name));
     run.settle();
-    const double seconds = options.seconds >= 0 ? options.seconds : scene.duration;
+    const double seconds = seconds_of(options, scene);
     Result<void> written;
     // Without a folder a look only feeds the progress line.
     const double every = folder != nullptr ? scene.output_every : 1.0 / 60;
@@ -52,10 +55,10 @@ Result<void> simulate(const Scene& scene, const RunOptions& options, SceneRun& r
         return folder != nullptr ? folder->add_frame(0, run.simulation()) : written;
     }
     run.run(seconds, every, [&](double time) {
-        progress.show(fmt::format(
-            "{}: {:.2f} of {:.2f} s, {} copies, {} elements cut, {:.1f} times real time", scene.name, time,
-            seconds, run.simulation().copies().node.size(), run.figures().cut.elements_cut,
-            run.figures().wall > 0 ? run.figures().simulated / run.figures().wall : 0.0));
+        progress.show(
+            fmt::format("{}: {:.2f} of {:.2f} s, {} copies, {} elements cut, {:.1f} times real time",
+                        scene.name, time, seconds, run.simulation().copies().node.size(),
+                        run.figures().cut.elements_cut, real_time_factor(run.figures())));
         if (folder != nullptr && written) { written = folder->add_frame(time, run.simulation()); }
     });
     return written;
@@ -78,6 +81,9 @@ int run(const RunOptions& options) {
     if (!simulation) { return refuse(fmt::format("{}: {}", options.scene, simulation.error().message)); }
 
     SceneRun run(*scene, std::move(*simulation));
+    if (const Result<void> checked = run.check(seconds_of(options, *scene)); !checked) {
+        return refuse(fmt::format("{}: {}", options.scene, checked.error().message));
+    }
     Result<void> written = simulate(*scene, options, run, folder ? &*folder : nullptr);
     if (written && folder) { written = folder->finish(run.simulation()); }
     if (!written) { return refuse(written.error().message); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace cli {
 
@@ -12,6 +13,9 @@ using namespace resect;
 
 constexpr double frame = 1.0 / 60;      // s
 constexpr double increment_time = 1e-3; // s between two sweeps of a blade, where steps are shorter
+constexpr double steps_at_most = 1e9;
+constexpr std::size_t blades_at_most = 64;
+constexpr double farthest = 1e6; // m
 
 Edge pose_at(const std::vector<BladeKey>& path, double time) {
     const auto after =
@@ -40,7 +44,7 @@ void add(CutReport& sum, const CutReport& part) {
 }
 
 double total(const CutReport& cut) {
-    return cut.us.detect + cut.us.bisect + cut.us.tear + cut.us.derive + cut.us.quantities + cut.us.surface;
+    return cut.us.detect + cut.us.bisect + cut.us.tear + cut.us.derive + cut.us.quantities;
 }
 
 } // namespace
@@ -56,28 +60,37 @@ StepReport SceneRun::settle() {
     return report;
 }
 
+/// A pose between two keys may be refused where the keys themselves are not: heel and tip may meet on the
+/// way.
+void SceneRun::apply(const Command& command) {
+    const Result<void> applied = simulation_.apply(command);
+    if (applied) { return; }
+    ++figures_.cut.refused;
+    figures_.cut.reason = applied.error().message;
+}
+
 void SceneRun::move_blades(double begin, double end) {
     for (std::size_t b = 0; b < blades_.size(); ++b) {
         const std::vector<BladeKey>& path = scene_.blades[b];
         const Index id = static_cast<Index>(b);
         if (blades_[b].lifted || path.front().time >= end) { continue; }
         if (!blades_[b].placed) {
-            must(simulation_.apply(MoveBlade{id, path.front().edge}));
+            apply(MoveBlade{id, path.front().edge});
             blades_[b].placed = true;
         }
         for (const BladeKey& key : path) {
             if (key.time > begin && key.time <= end && key.time > path.front().time) {
-                must(simulation_.apply(MoveBlade{id, key.edge}));
+                apply(MoveBlade{id, key.edge});
             }
         }
-        if (end < path.back().time) { must(simulation_.apply(MoveBlade{id, pose_at(path, end)})); }
+        if (end < path.back().time) { apply(MoveBlade{id, pose_at(path, end)}); }
     }
 }
 
 void SceneRun::lift_blades(double end) {
     for (std::size_t b = 0; b < blades_.size(); ++b) {
         if (!blades_[b].placed || blades_[b].lifted || scene_.blades[b].back().time > end) { continue; }
-        must(simulation_.apply(LiftBlade{static_cast<Index>(b)}));
+        apply(LiftBlade{static_cast<Index>(b)});
         blades_[b].lifted = true;
     }
 }
@@ -110,6 +123,29 @@ void SceneRun::increment(std::int64_t steps) {
     }
 }
 
+Result<void> SceneRun::check(double seconds) const {
+    const double steps = seconds / simulation_.time_step().used;
+    if (steps > steps_at_most) {
+        return Error{fmt::format("{:g} s in steps of {:g} s are {:.2g} steps; give fewer than {:g}", seconds,
+                                 simulation_.time_step().used, steps, steps_at_most)};
+    }
+    if (scene_.blades.size() > blades_at_most) {
+        return Error{fmt::format("{} blades; give at most {}", scene_.blades.size(), blades_at_most)};
+    }
+    for (std::size_t blade = 0; blade < scene_.blades.size(); ++blade) {
+        for (const BladeKey& key : scene_.blades[blade]) {
+            for (const Vec3& end : {key.edge.heel, key.edge.tip}) {
+                if (std::abs(end[0]) <= farthest && std::abs(end[1]) <= farthest &&
+                    std::abs(end[2]) <= farthest) {
+                    continue;
+                }
+                return Error{fmt::format("blades[{}]: a pose is farther than {:g} m away", blade, farthest)};
+            }
+        }
+    }
+    return {};
+}
+
 void SceneRun::finish_frame() {
     Timer timer;
     simulation_.surface();
@@ -127,7 +163,8 @@ void SceneRun::run(double seconds, double every, const std::function<void(double
     for (double next_frame = frame, next_look = every; figures_.steps < steps;) {
         increment(std::min(stride, steps - figures_.steps));
         const double time = simulation_.time();
-        const bool over = figures_.status == Status::diverged || figures_.steps >= steps;
+        const bool over = figures_.status == Status::diverged || figures_.status == Status::refused ||
+                          figures_.steps >= steps;
         if (over || time >= next_frame - step / 2) {
             finish_frame();
             next_frame += frame;

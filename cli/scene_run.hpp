@@ -23,11 +23,18 @@ struct RunFigures {
     double element_updates = 0;
 };
 
+/// Simulated over wall time; 0 before the first step.
+inline double real_time_factor(const RunFigures& figures) {
+    return figures.wall > 0 ? figures.simulated / figures.wall : 0;
+}
+
 /// A scene's simulation, driven step by step: blades follow their paths, frames are surfaced and measured.
 class SceneRun {
 public:
     SceneRun(const resect::Scene& scene, resect::Simulation simulation);
 
+    /// Whether the scene can be run for so long with these blades.
+    resect::Result<void> check(double seconds) const;
     /// To the scene's settled start; times count from its end.
     resect::StepReport settle();
     /// Runs for `seconds`; `look` is called with the time at 0, every `every` seconds and at the end, off the
@@ -41,6 +48,7 @@ private:
     struct Blade {
         bool placed = false, lifted = false;
     };
+    void apply(const resect::Command& command);
     void increment(std::int64_t steps);
     void move_blades(double begin, double end);
     void lift_blades(double end);

@@ -41,8 +41,9 @@ Result<void> write_surface(const std::string& path, const Surface& surface);
 Result<void> write_rest_surface(const std::string& path, const Surface& surface);
 /// The element copies with their fields, as .vtu (points at rest, docs/manual.md lists the arrays).
 Result<void> write_mesh(const std::string& path, const Simulation& simulation);
-/// A body's elements, as .vtu, .vtk (ASCII) or .msh (2.2, ASCII). The node sets go into .vtu (a UInt8 point
-/// array each, 1 inside) and .msh (a physical group each), and load_body() takes them from there.
+/// A body's elements, as .vtu, .vtk (ASCII) or .msh (2.2, ASCII). Regions are written, and not read back. The
+/// node sets go into .vtu (a UInt8 point array each, 1 inside) and .msh (a physical group each), and
+/// load_body() takes them from there.
 Result<void> write_body(const std::string& path, const Body& body);
 
 /// One file of a series in time.
@@ -62,7 +63,7 @@ struct MeshInfo {
     double dihedral_min = 0, dihedral_max = 0;    // degrees
     double altitude_min = 0, altitude_median = 0; // m
     double fraction_min = 1;                      // least material share of an element
-    Index elements_cut = 0;                       // elements with a share below one
+    Index elements_partial = 0;                   // elements with a share below one
     double time_step_bound = 0;                   // s, at rest, for the material given
 };
 MeshInfo describe(const Body& body, const Material& material = {});

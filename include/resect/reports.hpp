@@ -9,7 +9,8 @@
 
 namespace resect {
 
-enum class Status { ok, not_settled, diverged };
+/// Refused: what was asked for cannot be; nothing has been done.
+enum class Status { ok, not_settled, diverged, refused };
 
 /// Sums since the advance(), or the cut(), began.
 struct CutReport {
@@ -21,9 +22,9 @@ struct CutReport {
     std::string reason = {};
     Vec3 where = {}; // of the last refusal
     /// Microseconds by stage: find crossings, bisect edges, tear faces, derive copies and nodes, copy the
-    /// precomputed quantities, update the surface's topology.
+    /// precomputed quantities.
     struct {
-        double detect = 0, bisect = 0, tear = 0, derive = 0, quantities = 0, surface = 0;
+        double detect = 0, bisect = 0, tear = 0, derive = 0, quantities = 0;
     } us = {};
 };
 
@@ -39,7 +40,7 @@ struct StepReport {
 struct Piece {
     Index id = 0;      // kept while the piece exists, never reused
     double volume = 0; // m^3, at rest
-    double mass = 0;   // kg
+    double mass = 0;   // kg, by the solver's weights
     Vec3 centre = {};  // of volume, now
     bool held = false; // some of it is fixed
 };

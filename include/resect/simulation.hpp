@@ -27,8 +27,9 @@ public:
     /// Steps over `seconds` (rounded to whole steps, the remainder is carried over), sweeping blades on their
     /// way. Stops early, at the last finite state, if the run diverges.
     StepReport advance(double seconds);
-    /// Steps until the out-of-balance force on the free nodes of held pieces stays below `residual` of the
-    /// applied force for 50 steps, for `at_most` simulated seconds; the clock then starts at zero again.
+    /// Steps until the out-of-balance force on the free nodes of held pieces, a mean over 500 steps, stays
+    /// below `residual` of the applied force for 50 steps, for `at_most` simulated seconds; the clock then
+    /// starts at zero again.
     StepReport settle(double residual = 1e-4, double at_most = 30);
     /// Places a blade, sweeps it while the tissue is held still, and lifts it.
     Result<CutReport> cut(Edge from, Edge to);
@@ -41,6 +42,7 @@ public:
     Body material() const;
     std::vector<double> von_mises() const; // [copy] Cauchy, Pa
     std::span<const Piece> pieces();
+    /// The commands applied; not what advance(), settle() and cut() were asked for.
     std::span<const Recorded> record() const;
     Energies energies() const;
     TimeStep time_step() const;

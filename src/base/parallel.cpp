@@ -2,6 +2,7 @@
 #include "base/parallel.hpp"
 
 #include <algorithm>
+#include <system_error>
 
 namespace resect {
 
@@ -35,8 +36,12 @@ Workers::Workers(int threads) {
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const int wanted = threads > 0 ? std::min(threads, 256) : cores;
     helpers_.reserve(static_cast<std::size_t>(wanted - 1));
-    for (int i = 1; i < wanted; ++i) {
-        helpers_.emplace_back([this] { help(); });
+    try {
+        for (int i = 1; i < wanted; ++i) {
+            helpers_.emplace_back([this] { help(); });
+        }
+    } catch (const std::system_error&) {
+        // The machine gives no more threads: fewer do the same work.
     }
 }
 

@@ -26,6 +26,7 @@ void hand_down(Blade& blade, const Tet& ends, double t) {
 
 void add_to_blades(Cutter& cutter, const Blade& cutting, const Tet& ends, double t, const Vec3& normal) {
     for (Blade& blade : cutter.blades) {
+        if (!blade.placed) { continue; }
         if (&blade != &cutting) {
             hand_down(blade, ends, t);
             continue;
@@ -108,6 +109,7 @@ void queue_ring(Cutter& cutter, Index u, Index w) {
 void detach_star(Cutter& cutter, Index vertex, std::span<const Index> star) {
     const Index twin = split_vertex(cutter.material, vertex, star);
     for (Blade& blade : cutter.blades) {
+        if (!blade.placed) { continue; }
         blade.sheet.push_back(blade.sheet[row(vertex)]);
         blade.normal.push_back(blade.normal[row(vertex)]);
         if (blade.pending.size() == 0) { continue; }

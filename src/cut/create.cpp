@@ -89,13 +89,7 @@ void measure_elements(Cutter& cutter) {
     }
     cutter.mean_volume = std::accumulate(cutter.element_volume.begin(), cutter.element_volume.end(), 0.0) /
                          static_cast<double>(cutter.element_volume.size());
-    Box box = {elements.nodes.front(), elements.nodes.front()};
-    for (const Vec3& p : elements.nodes) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.lo[axis] = std::min(box.lo[axis], p[axis]);
-            box.hi[axis] = std::max(box.hi[axis], p[axis]);
-        }
-    }
+    const Box box = bounds_of(elements);
     cutter.unit = length(box.hi - box.lo);
 }
 

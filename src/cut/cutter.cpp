@@ -14,16 +14,16 @@ void refuse(CutReport& report, const char* reason, const Vec3& where) {
     report.where = where;
 }
 
-/// Above this a check after every cut would take longer than the cut by far.
-constexpr std::size_t most_elements_verified = 2000;
+/// Above this a check after every cut takes longer than the cut by far: it is made only where it is asked
+/// for.
+[[maybe_unused]] constexpr std::size_t most_elements_verified = 2000;
 
 void verify(const Cutter& cutter) {
+    bool wanted = cutter.setup.options.verify;
 #ifdef RESECT_VERIFY
-    const bool wanted = true;
-#else
-    const bool wanted = cutter.setup.options.verify;
+    wanted = wanted || cutter.element_volume.size() < most_elements_verified;
 #endif
-    if (!wanted || cutter.element_volume.size() >= most_elements_verified) { return; }
+    if (!wanted) { return; }
     const std::string broken = find_broken_invariant(cutter);
     if (!broken.empty()) { fail_assertion(broken.c_str(), __FILE__, __LINE__); }
 }
@@ -77,17 +77,15 @@ Vec3 displaced_position(const Cutter& cutter, Index vertex, std::span<const Vec3
 
 void place_blade(Cutter& cutter, Index blade, const Edge& pose) {
     RESECT_ASSERT(blade >= 0);
-    if (row(blade) >= cutter.blades.size()) { cutter.blades.resize(row(blade) + 1); }
     if (!is_sound(pose)) { return; }
+    if (row(blade) >= cutter.blades.size()) { cutter.blades.resize(row(blade) + 1); }
     Blade& placed = cutter.blades[row(blade)];
     placed.placed = true;
     placed.stroke = ++cutter.strokes;
     placed.frame = make_frame(pose);
     placed.pending.clear();
-    for (Blade& other : cutter.blades) {
-        other.sheet.resize(cutter.material.rest.size(), 0);
-        other.normal.resize(cutter.material.rest.size());
-    }
+    placed.sheet.resize(cutter.material.rest.size(), 0);
+    placed.normal.resize(cutter.material.rest.size());
 }
 
 void lift_blade(Cutter& cutter, Index blade) {
@@ -103,7 +101,7 @@ bool has_blade(const Cutter& cutter, Index blade) {
 // NOLINTNEXTLINE(readability-function-size): one call a step, from one place
 void sweep_blade(Cutter& cutter, Index blade, const Edge& to, std::span<const Vec3f> before,
                  std::span<const Vec3f> after, Delta& delta, CutReport& report) {
-    delta = {};
+    delta.clear();
     if (!has_blade(cutter, blade)) {
         refuse(report, "a blade that is not placed cannot sweep: place it first", to.tip);
         return;

@@ -31,11 +31,7 @@ struct Scratch {
     std::vector<std::uint8_t> node_outside = {}; // [node]
     std::vector<Track> tracks = {};              // [vertex] where tracked
     Marks tracked = {};                          // vertices
-    struct Near {
-        double distance_squared = 0;
-        Index vertex = 0;
-    };
-    std::vector<Near> near = {}; // vertices whose path meets the blade
+    std::vector<Index> near = {};                // vertices whose path meets the blade
     struct Event {
         Index u = 0, w = 0, tet = 0; // edge u < w, and a tet around it
         double t = 0;                // from u

@@ -86,7 +86,7 @@ const Track& track_vertex(Cutter& cutter, const Sweep& sweep, const BladeBox& bo
     const double reach = snap_distance(cutter.material, vertex);
     const bool is_near = passage.distance_squared < reach * reach && passage.height >= -reach &&
                          passage.height <= sweep.to.length + reach;
-    if (is_near) { scratch.near.push_back({passage.distance_squared, vertex}); }
+    if (is_near) { scratch.near.push_back(vertex); }
     return track;
 }
 
@@ -185,19 +185,15 @@ GridPoint motion_of(const Track& track) {
 
 void snap_vertices(Cutter& cutter, Blade& blade, const Sweep& sweep) {
     Scratch& scratch = cutter.scratch;
-    std::sort(scratch.near.begin(), scratch.near.end(), [](const Scratch::Near& a, const Scratch::Near& b) {
-        return a.distance_squared != b.distance_squared ? a.distance_squared < b.distance_squared
-                                                        : a.vertex < b.vertex;
-    });
-    for (const Scratch::Near& near : scratch.near) {
-        if (is_zero(blade, near.vertex)) { continue; }
-        const Index tet = cutter.material.any_tet[row(near.vertex)];
-        blade.sheet[row(near.vertex)] = blade.stroke;
-        blade.normal[row(near.vertex)] =
-            find_sheet_normal(cutter, sweep, tet, motion_of(scratch.tracks[row(near.vertex)]));
+    for (const Index vertex : scratch.near) {
+        if (is_zero(blade, vertex)) { continue; }
+        const Index tet = cutter.material.any_tet[row(vertex)];
+        blade.sheet[row(vertex)] = blade.stroke;
+        blade.normal[row(vertex)] =
+            find_sheet_normal(cutter, sweep, tet, motion_of(scratch.tracks[row(vertex)]));
         scratch.star.clear();
         scratch.walked.clear(cutter.material.tets.size());
-        walk_star(cutter.material, near.vertex, tet, scratch.walked, scratch.star);
+        walk_star(cutter.material, vertex, tet, scratch.walked, scratch.star);
         for (const Index m : scratch.star) {
             queue_tet(cutter, m);
         }

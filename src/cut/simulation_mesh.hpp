@@ -41,6 +41,14 @@ struct Delta {
     std::vector<Corner> corners;
     std::vector<Index> weighed;       // copies, old and new, whose weight changed
     std::vector<Index> touched_nodes; // old and new, whose mass, home or hold changed
+
+    void clear() {
+        copies.clear();
+        nodes.clear();
+        corners.clear();
+        weighed.clear();
+        touched_nodes.clear();
+    }
 };
 
 } // namespace resect

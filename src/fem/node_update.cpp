@@ -50,7 +50,6 @@ void add_energies(StepSums& sums, const NodeArrays& nodes, const StepConstants& 
     sums.kinetic += 0.5 * mass * dot(after, after);
     sums.internal_work += dt * dot(to_double(internal), mean);
     if (nodes.inverse_mass[node] > 0) {
-        sums.applied_work += dt * dot(applied_force(nodes, constants, n), mean);
         sums.damping_work += dt * double(constants.damping) * mass * dot(mean, mean);
     }
 }
@@ -59,6 +58,15 @@ void add_energies(StepSums& sums, const NodeArrays& nodes, const StepConstants& 
 
 Vec3 applied_force(const NodeArrays& nodes, const StepConstants& constants, Index node) {
     return to_double(nodes.load[row(node)]) + double(nodes.mass[row(node)]) * to_double(constants.gravity);
+}
+
+double kinetic_energy(const NodeArrays& nodes) {
+    double energy = 0;
+    for (std::size_t node = 0; node < nodes.mass.size(); ++node) {
+        const Vec3 v = to_double(nodes.velocity[node]);
+        energy += static_cast<double>(nodes.mass[node]) / 2 * dot(v, v);
+    }
+    return energy;
 }
 
 StepSums node_update(const Elements& elements, NodeArrays& nodes, const StepConstants& constants,

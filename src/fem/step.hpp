@@ -28,12 +28,11 @@ struct StepConstants {
 };
 
 /// Sums over a range of nodes, in node order. Works are over the step from half a step before to half a step
-/// after, at the mean of both velocities; for free nodes the change of `kinetic` is then applied_work -
-/// internal_work - damping_work to rounding, whatever the step.
+/// after, at the mean of both velocities; for free nodes the change of `kinetic` is then the work of gravity
+/// and loads less internal_work and damping_work, to rounding, whatever the step.
 struct StepSums {
     double internal_work = 0; // J, that the internal forces took (elastic and viscous), held nodes included
     double damping_work = 0;  // J, that mass-proportional damping took
-    double applied_work = 0;  // J, that gravity and loads gave to free nodes
     double kinetic = 0;       // J, at the half step after
     float speed_squared = 0;  // largest of free nodes; NaN if anything is not finite
 };
@@ -65,6 +64,7 @@ StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std:
 /// Of both ranges; the earlier one's copy stays where bounds are equal.
 StrainCheck merge(const StrainCheck& a, const StrainCheck& b);
 
+double kinetic_energy(const NodeArrays& nodes);                                         // J, at the half step
 double elastic_energy(const Elements& elements, std::span<const Vec3f> displacement);   // J
 double von_mises_stress(const Elements& elements, const NodeArrays& nodes, Index copy); // Pa, Cauchy
 

@@ -9,7 +9,7 @@
 
 #include "base/assert.hpp"
 #include "mesh/adjacency.hpp"
-#include "mesh/edge_map.hpp"
+#include "mesh/edge_rows.hpp"
 
 namespace resect {
 namespace {
@@ -208,8 +208,8 @@ bool is_at_surface(const Shape& shape, const Draft& draft, const Tet& tet, doubl
 }
 
 /// Marks the edges of tets at the surface that are not yet halved.
-EdgeMap mark_surface_edges(const Shape& shape, const Draft& draft, double size) {
-    EdgeMap marks;
+EdgeRows mark_surface_edges(const Shape& shape, const Draft& draft, double size) {
+    EdgeRows marks;
     const auto& nodes = draft.material.nodes;
     for (const Tet& tet : draft.material.tets) {
         if (!is_at_surface(shape, draft, tet, size)) { continue; }
@@ -237,7 +237,7 @@ void snap_surface(const Shape& shape, double size, Draft& draft) {
 
 /// Halves the edges of tets that meet the surface.
 void refine_once(const Shape& shape, double spacing, double size, Draft& draft) {
-    EdgeMap marks = mark_surface_edges(shape, draft, size);
+    EdgeRows marks = mark_surface_edges(shape, draft, size);
     const auto marked = [&](Index a, Index b) { return marks.find(edge_key(a, b)) != nullptr; };
     const auto middle = [&](Index a, Index b) {
         Index& vertex = marks[edge_key(a, b)];
@@ -279,7 +279,7 @@ double find_crossing(const Shape& shape, const Vec3& p, const Vec3& d, double in
 
 /// Bisects every edge that crosses the surface and drops the tets outside.
 void cut_at_surface(const Shape& shape, double spacing, Draft& draft) {
-    EdgeMap crossings;
+    EdgeRows crossings;
     const auto is_in = [&](Index vertex) { return draft.values[row(vertex)] < 0; };
     const auto is_out = [&](Index vertex) { return draft.values[row(vertex)] > 0; };
     const auto marked = [&](Index a, Index b) { return (is_in(a) && is_out(b)) || (is_out(a) && is_in(b)); };

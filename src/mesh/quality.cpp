@@ -38,17 +38,6 @@ void take_dihedrals(const std::array<Vec3, 4>& normals, MeshInfo& info) {
     }
 }
 
-Box bounds_of(const std::vector<Vec3>& points) {
-    Box box = {points.front(), points.front()};
-    for (const Vec3& p : points) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.lo[axis] = std::min(box.lo[axis], p[axis]);
-            box.hi[axis] = std::max(box.hi[axis], p[axis]);
-        }
-    }
-    return box;
-}
-
 /// Shapes of the elements.
 void measure_elements(const TetMesh& mesh, MeshInfo& info) {
     info.volume_min = info.volume_max = signed_volume(mesh, mesh.tets.front());
@@ -85,7 +74,7 @@ void measure_material(const TetMesh& material, MeshInfo& info) {
 void measure_fractions(const Body& body, MeshInfo& info) {
     for (const double fraction : compute_fractions(body)) {
         info.fraction_min = std::min(info.fraction_min, fraction);
-        info.elements_cut += fraction < whole ? 1 : 0;
+        info.elements_partial += fraction < whole ? 1 : 0;
     }
 }
 
@@ -108,7 +97,7 @@ MeshInfo measure_body(const Body& body) {
     info.nodes = static_cast<Index>(body.elements.nodes.size());
     info.tets = static_cast<Index>(body.elements.tets.size());
     if (body.elements.tets.empty()) { return info; }
-    info.bounds = bounds_of(body.elements.nodes);
+    info.bounds = bounds_of(body.elements);
     measure_elements(body.elements, info);
     measure_material(body.material.tets.empty() ? body.elements : body.material, info);
     measure_fractions(body, info);

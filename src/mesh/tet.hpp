@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "base/vec.hpp"
@@ -24,6 +25,22 @@ inline double signed_volume(const TetMesh& mesh, const Tet& tet) {
         return mesh.nodes[static_cast<std::size_t>(tet[static_cast<std::size_t>(corner)])];
     };
     return signed_volume(at(0), at(1), at(2), at(3));
+}
+
+/// The box of the nodes that tets use.
+inline Box bounds_of(const TetMesh& mesh) {
+    const Vec3& first = mesh.nodes[static_cast<std::size_t>(mesh.tets.front()[0])];
+    Box box = {first, first};
+    for (const Tet& tet : mesh.tets) {
+        for (const Index node : tet) {
+            const Vec3& p = mesh.nodes[static_cast<std::size_t>(node)];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                box.lo[axis] = std::min(box.lo[axis], p[axis]);
+                box.hi[axis] = std::max(box.hi[axis], p[axis]);
+            }
+        }
+    }
+    return box;
 }
 
 } // namespace resect

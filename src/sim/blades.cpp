@@ -25,7 +25,9 @@ void append_nodes(Engine& engine, std::span<const Delta::NewNode> added) {
         const Vec3f value = array[row(source)];
         array.push_back(value);
     };
+    const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
     for (const Delta::NewNode& node : added) {
+        engine.classes[row(mesh.node_reference[row(node.node)])].push_back(node.node);
         repeat(nodes.rest, node.source);
         repeat(nodes.displacement, node.source);
         repeat(nodes.velocity, node.source);
@@ -63,18 +65,18 @@ void apply_delta(Engine& engine) {
 /// Sweeps a blade to `to`. The first sweep since the tissue moved takes that motion in, later ones see it
 /// still.
 void sweep_one(Engine& engine, Index blade, const Edge& to, bool first, CutReport& report) {
-    // With plain copies a cut adds elastic energy out of nothing; the account of internal work takes it over.
+    const std::vector<Vec3f>& before = first ? engine.swept : engine.nodes.displacement;
+    sweep_blade(*engine.cutter, blade, to, before, engine.nodes.displacement, engine.delta, report);
+    if (engine.delta.touched_nodes.empty()) { return; }
+    // With plain copies a cut adds energy out of nothing; the accounts of work and motion take it over.
     const bool adds_energy = engine.model.weights == Weights::copy;
     const double elastic = adds_energy ? elastic_energy(engine.elements, engine.nodes.displacement) : 0;
-    const std::vector<Vec3f>& before = first ? engine.swept : engine.nodes.displacement;
-    engine.delta = {};
-    sweep_blade(*engine.cutter, blade, to, before, engine.nodes.displacement, engine.delta, report);
     Stopwatch watch;
-    if (engine.delta.touched_nodes.empty()) { return; }
     apply_delta(engine);
     report.us.quantities += watch.lap();
     if (adds_energy) {
         engine.work.internal += elastic_energy(engine.elements, engine.nodes.displacement) - elastic;
+        engine.kinetic = kinetic_energy(engine.nodes);
     }
 }
 
@@ -117,6 +119,7 @@ void follow(Engine& engine, BladeWay& way, std::int64_t left, CutReport& report)
 } // namespace
 
 void sweep_blades(Engine& engine, std::int64_t left, CutReport& report) {
+    if (engine.blades.empty()) { return; }
     for (BladeWay& way : engine.blades) {
         follow(engine, way, left, report);
     }

@@ -12,6 +12,7 @@ namespace resect {
 namespace {
 
 constexpr int threads_at_most = 256;
+constexpr double most_gravity = 1e5; // m/s^2
 
 Result<void> check_material(const Material& material, std::size_t at) {
     const auto wrong = [&](const char* what, double value, const char* mend) {
@@ -110,7 +111,7 @@ Result<void> check_motion(const Setup& setup) {
 }
 
 Result<void> check_numbers(const Setup& setup) {
-    if (!(length(setup.gravity) <= 1e5)) { return Error{"gravity: must be finite and below 1e5 m/s^2"}; }
+    if (Result<void> checked = check_gravity(setup.gravity); !checked) { return checked; }
     if (!(setup.damping >= 0 && setup.damping <= 1e6)) {
         return Error{fmt::format("damping is {:g}; give 1/s from 0 to 1e6", setup.damping)};
     }
@@ -126,6 +127,12 @@ Result<void> check_numbers(const Setup& setup) {
 }
 
 } // namespace
+
+Result<void> check_gravity(const Vec3& gravity) {
+    if (length(gravity) <= most_gravity) { return {}; }
+    return Error{fmt::format("gravity ({:g}, {:g}, {:g}): must be finite and below {:g} m/s^2", gravity[0],
+                             gravity[1], gravity[2], most_gravity)};
+}
 
 Result<void> check_setup(const Setup& setup) {
     if (setup.materials.empty()) { return Error{"materials: there is none; give at least one"}; }

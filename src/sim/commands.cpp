@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "sim/check_setup.hpp"
 #include "sim/engine.hpp"
 
 namespace resect {
@@ -10,8 +11,7 @@ namespace resect {
 namespace {
 
 constexpr Index blades_at_most = 64;
-constexpr double farthest = 1e6;     // m; beyond it a pose is a mistake
-constexpr double most_gravity = 1e5; // m/s^2
+constexpr double farthest = 1e6; // m; beyond it a pose is a mistake
 
 Result<void> check_blade(Index blade) {
     if (0 <= blade && blade < blades_at_most) { return {}; }
@@ -55,11 +55,23 @@ Result<void> apply_one(Engine& engine, const LiftBlade& lift) {
     return {};
 }
 
+bool is_held(const Engine& engine, Index reference) {
+    const std::vector<std::uint8_t>& held = simulation_mesh(*engine.cutter).node_held;
+    const std::vector<Index>& nodes = engine.classes[row(reference)];
+    return std::all_of(nodes.begin(), nodes.end(), [&](Index node) { return held[row(node)] != 0; });
+}
+
 Result<void> check_prescription(const Engine& engine, const Prescribe& told) {
     const Index count = static_cast<Index>(engine.model.elements.nodes.size());
     for (const Index node : told.nodes) {
         if (node < 0 || node >= count) {
             return Error{fmt::format("prescribe: node {} is not one of the body's {} nodes", node, count)};
+        }
+        if (engine.classes[row(node)].empty()) {
+            return Error{fmt::format("prescribe: node {} belongs to no element; leave it out", node)};
+        }
+        if (is_held(engine, node)) {
+            return Error{fmt::format("prescribe: node {} is fixed; leave it out", node)};
         }
     }
     if (!told.displacement.empty() && told.displacement.size() != told.nodes.size()) {
@@ -109,12 +121,6 @@ Result<void> check_edge(const Edge& edge) {
         return Error{"heel and tip are the same point; give it a length"};
     }
     return {};
-}
-
-Result<void> check_gravity(const Vec3& gravity) {
-    if (length(gravity) <= most_gravity) { return {}; }
-    return Error{fmt::format("gravity ({:g}, {:g}, {:g}): must be finite and below {:g} m/s^2", gravity[0],
-                             gravity[1], gravity[2], most_gravity)};
 }
 
 Result<void> apply_command(Engine& engine, const Command& command) {

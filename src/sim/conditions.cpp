@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "sim/engine.hpp"
 
@@ -15,12 +16,11 @@ std::vector<Index> find_owners(const Engine& engine, Index reference) {
     const Vec3& at = engine.model.elements.nodes[row(reference)];
     std::vector<Index> owners;
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t node = 0; node < mesh.node_reference.size(); ++node) {
-        if (mesh.node_reference[node] != reference) { continue; }
-        const double distance = length(mesh.node_home[node] - at);
+    for (const Index node : engine.classes[row(reference)]) {
+        const double distance = length(mesh.node_home[row(node)] - at);
         if (distance < nearest) { owners.clear(); }
         nearest = std::min(nearest, distance);
-        if (distance == nearest) { owners.push_back(static_cast<Index>(node)); }
+        if (distance == nearest) { owners.push_back(node); }
     }
     return owners;
 }
@@ -40,7 +40,13 @@ void apply_loads(Engine& engine) {
     }
 }
 
+/// Owners may change with any cut, so nobody keeps what was told before.
 void hold_prescribed(Engine& engine) {
+    const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
+    for (std::size_t node = 0; node < mesh.node_mass.size(); ++node) {
+        engine.nodes.inverse_mass[node] =
+            mesh.node_held[node] ? 0 : static_cast<float>(1 / mesh.node_mass[node]);
+    }
     for (const auto& told : engine.prescribed) {
         for (const Index node : find_owners(engine, told.first)) {
             engine.nodes.inverse_mass[row(node)] = 0;
@@ -60,7 +66,7 @@ void update_conditions(Engine& engine, std::span<const Index> touched) {
         if (mesh.node_held[node]) { nodes.velocity[node] = {}; }
     }
     if (!engine.model.loads.empty()) { apply_loads(engine); }
-    hold_prescribed(engine);
+    if (!engine.prescribed.empty()) { hold_prescribed(engine); }
     engine.fixed.resize(nodes.mass.size());
     for (std::size_t node = 0; node < engine.fixed.size(); ++node) {
         engine.fixed[node] = nodes.inverse_mass[node] == 0 ? 1 : 0;
@@ -69,9 +75,7 @@ void update_conditions(Engine& engine, std::span<const Index> touched) {
 
 void update_all_conditions(Engine& engine) {
     std::vector<Index> all(engine.nodes.mass.size());
-    for (std::size_t node = 0; node < all.size(); ++node) {
-        all[node] = static_cast<Index>(node);
-    }
+    std::iota(all.begin(), all.end(), 0);
     update_conditions(engine, all);
 }
 

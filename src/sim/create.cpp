@@ -14,17 +14,6 @@ namespace {
 
 constexpr Index homes_at_least = 12; // of a region that holds a lattice body
 
-double rest_diagonal(const TetMesh& mesh) {
-    Box box{mesh.nodes.front(), mesh.nodes.front()};
-    for (const Vec3& node : mesh.nodes) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.lo[axis] = std::min(box.lo[axis], node[axis]);
-            box.hi[axis] = std::max(box.hi[axis], node[axis]);
-        }
-    }
-    return length(box.hi - box.lo);
-}
-
 Model build_model(Setup& setup) {
     Model model;
     model.rest = build_rest(setup.body.elements);
@@ -34,7 +23,8 @@ Model build_model(Setup& setup) {
     model.region.resize(model.rest.size(), 0);
     model.loads = setup.loads;
     model.weights = setup.cut.weights;
-    model.size = rest_diagonal(model.elements);
+    const Box box = bounds_of(model.elements);
+    model.size = length(box.hi - box.lo);
     model.rest_bound = std::numeric_limits<double>::infinity();
     double volume = 0;
     for (std::size_t element = 0; element < model.rest.size(); ++element) {
@@ -51,7 +41,7 @@ Model build_model(Setup& setup) {
 }
 
 /// With SF = step / bound and theta = viscous time / bound, the step is stable at rest while SF^2 + 2 theta
-/// SF <= 1 (docs/method.md); the automatic one keeps the margin that 0.7 has at theta = 0.1.
+/// SF <= 1 (docs/method.md); the automatic one keeps the margin that 0.6 has at theta = 0.1.
 Result<double> choose_time_step(const Setup& setup, const Model& model) {
     const double theta =
         *std::max_element(model.viscous_time.begin(), model.viscous_time.end()) / model.rest_bound;
@@ -95,9 +85,9 @@ Result<void> check_holds(const Setup& setup, std::span<const HeldRegion> held, c
         Index homes = 0;
         for (std::size_t node = 0; node < mesh.node_home.size(); ++node) {
             const std::vector<std::uint8_t>& marked = held[at].node_marked;
-            const bool inside = marked.empty() ? is_inside(held[at].box, mesh.node_home[node])
-                                               : marked[row(mesh.node_reference[node])] != 0;
-            homes += inside ? 1 : 0;
+            const bool named = marked.empty() ? is_inside(held[at].box, mesh.node_home[node])
+                                              : marked[row(mesh.node_reference[node])] != 0;
+            homes += named && mesh.node_held[node] != 0 ? 1 : 0;
         }
         if (homes < (lattice ? homes_at_least : 1)) {
             return Error{
@@ -107,6 +97,11 @@ Result<void> check_holds(const Setup& setup, std::span<const HeldRegion> held, c
         }
     }
     return {};
+}
+
+bool uses_node(const SimulationMesh& mesh, Index reference) {
+    return std::find(mesh.node_reference.begin(), mesh.node_reference.end(), reference) !=
+           mesh.node_reference.end();
 }
 
 void build_nodes(Engine& engine, const Motion& initial) {
@@ -126,6 +121,10 @@ void build_nodes(Engine& engine, const Motion& initial) {
     nodes.load.resize(count);
     nodes.mass.resize(count);
     nodes.inverse_mass.resize(count);
+    engine.classes.resize(engine.model.elements.nodes.size());
+    for (std::size_t node = 0; node < count; ++node) {
+        engine.classes[row(mesh.node_reference[node])].push_back(static_cast<Index>(node));
+    }
     engine.swept = nodes.displacement;
     update_all_conditions(engine);
 }
@@ -173,13 +172,15 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup) {
     if (const Result<void> checked = check_holds(setup, held, simulation_mesh(*engine->cutter)); !checked) {
         return checked.error();
     }
+    for (const auto& load : model.loads) {
+        if (!uses_node(simulation_mesh(*engine->cutter), load.first)) {
+            return Error{fmt::format("load: node {} belongs to no element; load another", load.first)};
+        }
+    }
     build_elements(*engine);
     build_nodes(*engine, setup.initial);
     engine->elastic_start = elastic_energy(engine->elements, engine->nodes.displacement);
-    for (std::size_t node = 0; node < engine->nodes.mass.size(); ++node) {
-        const Vec3 v = to_double(engine->nodes.velocity[node]);
-        engine->kinetic += static_cast<double>(engine->nodes.mass[node]) / 2 * dot(v, v);
-    }
+    engine->kinetic = kinetic_energy(engine->nodes);
     check_strain_now(*engine);
     return engine;
 }

@@ -58,9 +58,10 @@ struct Engine {
     double time_step = 0; // s
     Workers workers;
 
-    std::map<Index, Vec3> prescribed = {}; // displacement by row of Body::elements.nodes, m
-    std::vector<BladeWay> blades = {};     // in id order
-    std::vector<Vec3f> swept = {};         // displacement up to which blades have swept [node]
+    std::map<Index, Vec3> prescribed = {};        // displacement by row of Body::elements.nodes, m
+    std::vector<std::vector<Index>> classes = {}; // [row of Body::elements.nodes] its simulation nodes
+    std::vector<BladeWay> blades = {};            // in id order
+    std::vector<Vec3f> swept = {};                // displacement up to which blades have swept [node]
     std::vector<Recorded> record = {};
     std::int64_t step = 0;        // since creation
     std::int64_t clock_start = 0; // step at which time is zero
@@ -111,7 +112,6 @@ void sweep_still(Engine& engine, Index blade, const Edge& from, const Edge& to, 
 
 // commands.cpp
 Result<void> check_edge(const Edge& edge);
-Result<void> check_gravity(const Vec3& gravity);
 Result<void> apply_command(Engine& engine, const Command& command);
 
 // settle.cpp

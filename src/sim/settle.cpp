@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 #include "sim/engine.hpp"
 
@@ -13,24 +14,27 @@ constexpr int calm_steps = 50;      // in a row below the residual
 constexpr int averaged_steps = 500; // of the running mean of forces
 constexpr double easing_time = 2;   // s, at most a third of the time given
 
-/// Nodes that count: free ones of held pieces. Pieces that nothing holds fall for ever.
+/// Nodes that count: free ones of pieces that something holds, be it fixed or prescribed. Other pieces fall
+/// for ever.
 std::vector<Index> find_supported_nodes(Engine& engine) {
     const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
-    const std::span<const Piece> pieces = update_pieces(*engine.cutter, engine.nodes.displacement);
     const std::span<const Index> piece_of = piece_of_copy(*engine.cutter);
+    const auto is_free = [&](Index node) { return engine.nodes.inverse_mass[row(node)] > 0; };
+    std::set<Index> held_pieces;
+    for (std::size_t copy = 0; copy < mesh.copy_node.size(); ++copy) {
+        const Tet& nodes = mesh.copy_node[copy];
+        if (!std::all_of(nodes.begin(), nodes.end(), is_free)) { held_pieces.insert(piece_of[copy]); }
+    }
     std::vector<std::uint8_t> supported(mesh.node_reference.size(), 0);
     for (std::size_t copy = 0; copy < mesh.copy_node.size(); ++copy) {
-        const auto is_held = [&](const Piece& piece) { return piece.id == piece_of[copy] && piece.held; };
-        if (std::none_of(pieces.begin(), pieces.end(), is_held)) { continue; }
+        if (!held_pieces.contains(piece_of[copy])) { continue; }
         for (const Index node : mesh.copy_node[copy]) {
-            supported[row(node)] = 1;
+            supported[row(node)] = is_free(node) ? 1 : 0;
         }
     }
     std::vector<Index> nodes;
     for (std::size_t node = 0; node < supported.size(); ++node) {
-        if (supported[node] != 0 && engine.nodes.inverse_mass[node] > 0) {
-            nodes.push_back(static_cast<Index>(node));
-        }
+        if (supported[node] != 0) { nodes.push_back(static_cast<Index>(node)); }
     }
     return nodes;
 }
@@ -90,71 +94,82 @@ private:
     int watched_ = 0;        // steps
 };
 
-void stop_motion(Engine& engine) {
-    engine.work.settling += engine.kinetic;
-    engine.kinetic = 0;
-    std::fill(engine.nodes.velocity.begin(), engine.nodes.velocity.end(), Vec3f{});
-}
-
 /// Kinetic damping (Day 1965, Cundall 1976): the motion is stopped whenever its kinetic energy has passed a
-/// peak, which is near where the forces balance.
+/// peak, which is near where the forces balance. Pieces that fall go on falling.
 class KineticDamping {
 public:
+    explicit KineticDamping(std::vector<Index> nodes) : nodes_(std::move(nodes)) {}
+
     void watch(Engine& engine) {
-        if (engine.kinetic < last_) {
-            stop_motion(engine);
-            last_ = 0;
-        } else {
-            last_ = engine.kinetic;
+        const double now = kinetic(engine);
+        if (now < last_) { stop(engine); }
+        last_ = now < last_ ? 0 : now;
+    }
+    void stop(Engine& engine) const {
+        const double taken = kinetic(engine);
+        engine.work.settling += taken;
+        engine.kinetic -= taken;
+        for (const Index node : nodes_) {
+            engine.nodes.velocity[row(node)] = {};
         }
     }
 
 private:
-    double last_ = 0;
+    double kinetic(const Engine& engine) const {
+        double energy = 0;
+        for (const Index node : nodes_) {
+            const Vec3 v = to_double(engine.nodes.velocity[row(node)]);
+            energy += static_cast<double>(engine.nodes.mass[row(node)]) / 2 * dot(v, v);
+        }
+        return energy;
+    }
+
+    std::vector<Index> nodes_;
+    double last_ = 0; // J
 };
 
 /// Steps until calm; the report says how it ended.
 void step_to_rest(Engine& engine, double residual, double at_most, StepReport& report) {
-    Balance balance(find_supported_nodes(engine));
+    const std::vector<Index> nodes = find_supported_nodes(engine);
+    Balance balance(nodes);
+    KineticDamping damping(nodes);
     if (!balance.is_loaded(engine)) {
         report.status = Status::ok;
         return;
     }
     const Easing easing(engine);
-    KineticDamping damping;
     const double eased = std::min(easing_time, at_most / 3) / engine.time_step;
     double ratio = 1;
-    for (int calm = 0; static_cast<double>(report.steps) * engine.time_step < at_most; ++report.steps) {
+    for (int calm = 0; calm < calm_steps; ++report.steps) {
+        if (static_cast<double>(report.steps) * engine.time_step >= at_most) {
+            report.status = Status::not_settled;
+            report.reason =
+                fmt::format("not settled in {:g} s: {:.2g} of the applied force is out of balance, {:.2g} "
+                            "was asked for; allow more time, or a larger residual",
+                            at_most, ratio, residual);
+            break;
+        }
         const double share = std::min(1.0, static_cast<double>(report.steps + 1) / eased);
         easing.ease(engine, share);
         if (!step_motion(engine)) {
-            easing.ease(engine, 1);
             report.status = Status::diverged;
             report.element = find_diverged_element(engine, report.reason);
-            return;
+            break;
         }
         if (share == 1) { ratio = balance.watch(engine); }
-        calm = ratio <= residual ? calm + 1 : 0;
-        if (calm == calm_steps) {
-            report.status = Status::ok;
-            return;
-        }
+        calm = share == 1 && ratio <= residual ? calm + 1 : 0;
         damping.watch(engine);
         if (engine.step % check_interval == 0) { check_strain_now(engine); }
     }
     easing.ease(engine, 1);
-    report.reason =
-        fmt::format("not settled in {:g} s: {:.2g} of the applied force is out of balance, {:.2g} was "
-                    "asked for; allow more time, or a larger residual",
-                    at_most, ratio, residual);
+    damping.stop(engine);
 }
 
 } // namespace
 
 StepReport settle_engine(Engine& engine, double residual, double at_most) {
-    StepReport report{.status = Status::not_settled};
+    StepReport report;
     step_to_rest(engine, residual, at_most, report);
-    stop_motion(engine);
     engine.strain = {};
     check_strain_now(engine);
     engine.clock_start = engine.step;

@@ -17,9 +17,16 @@ constexpr double sweep_every = 1e-3;   // s, where steps are shorter
 constexpr Index blade_of_cut = 64;     // beside the caller's own
 
 StepReport diverged(Engine& engine, StepReport report) {
+    report.cut.pieces = count_pieces(*engine.cutter);
     report.status = Status::diverged;
     report.element = find_diverged_element(engine, report.reason);
     return report;
+}
+
+/// Some blade has yet to go where it was told to.
+bool is_under_way(const Engine& engine) {
+    return std::any_of(engine.blades.begin(), engine.blades.end(),
+                       [](const BladeWay& way) { return !way.poses.empty(); });
 }
 
 } // namespace
@@ -42,6 +49,7 @@ StepReport Simulation::advance(double seconds) {
     StepReport report;
     const double asked = (engine.carried + seconds) / engine.time_step;
     if (!(seconds >= 0 && asked <= steps_at_most)) {
+        report.status = Status::refused;
         report.reason = fmt::format("advance({:g}): give seconds from 0 to {:g}", seconds,
                                     steps_at_most * engine.time_step);
         return report;
@@ -55,7 +63,7 @@ StepReport Simulation::advance(double seconds) {
         if (!step_motion(engine)) { return diverged(engine, report); }
         ++report.steps;
         const std::int64_t left = steps - report.steps;
-        if (!engine.blades.empty() && (report.steps % stride == 0 || left == 0)) {
+        if (engine.step % stride == 0 || (left == 0 && is_under_way(engine))) {
             sweep_blades(engine, (left + stride - 1) / stride + 1, report.cut);
         }
         if (engine.step % check_interval == 0) { check_strain_now(engine); }
@@ -66,7 +74,10 @@ StepReport Simulation::advance(double seconds) {
 
 StepReport Simulation::settle(double residual, double at_most) {
     if (!(residual > 0 && at_most >= 0 && at_most / engine_->time_step <= steps_at_most)) {
-        return {.status = Status::not_settled, .reason = "settle: give a residual above 0 and a time from 0"};
+        return {.status = Status::refused, .reason = "settle: give a residual above 0 and a time from 0"};
+    }
+    if (!engine_->blades.empty()) {
+        return {.status = Status::refused, .reason = "settle: a blade is placed; lift it first"};
     }
     StepReport report = settle_engine(*engine_, residual, at_most);
     report.cut.pieces = count_pieces(*engine_->cutter);

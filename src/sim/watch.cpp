@@ -19,7 +19,7 @@ Index find_fastest_node(const NodeArrays& nodes) {
     for (std::size_t node = 0; node < nodes.next_velocity.size(); ++node) {
         const float speed = dot(nodes.next_velocity[node], nodes.next_velocity[node]);
         if (!std::isfinite(speed)) { return static_cast<Index>(node); }
-        if (speed > most) {
+        if (speed > most && nodes.inverse_mass[node] > 0) {
             most = speed;
             fastest = static_cast<Index>(node);
         }

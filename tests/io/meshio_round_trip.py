@@ -1,4 +1,4 @@
-#SPDX - License - Identifier : Apache - 2.0
+# SPDX-License-Identifier: Apache-2.0
 """Reads with meshio what write_samples wrote, and compares every array bit by bit."""
 import os
 import subprocess

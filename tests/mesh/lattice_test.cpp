@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mesh/adjacency.hpp"
-#include "mesh/edge_map.hpp"
+#include "mesh/edge_rows.hpp"
 #include "mesh/lattice.hpp"
 #include "mesh/lattice_checks.hpp"
 #include "mesh/made.hpp"
@@ -161,7 +161,7 @@ TEST_CASE("a search for elements in an empty body ends with what it found") {
 }
 
 TEST_CASE("an edge map finds what was entered from either end, and nothing else") {
-    EdgeMap map;
+    EdgeRows map;
     for (Index a = 0; a < 3000; ++a) {
         map[edge_key(a, a + 7)] = a;
     }

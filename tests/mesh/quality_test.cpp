@@ -20,7 +20,7 @@ TEST_CASE("the corner tet of a cube has known angles, altitude and volume") {
     CHECK(info.dihedral_min == doctest::Approx(std::acos(1 / std::sqrt(3.0)) * 180 / 3.14159265358979));
     CHECK(info.altitude_min == doctest::Approx(1 / std::sqrt(3.0)));
     CHECK(info.fraction_min == 1);
-    CHECK(info.elements_cut == 0);
+    CHECK(info.elements_partial == 0);
 }
 
 TEST_CASE("a block's numbers are those of its cells") {
@@ -44,7 +44,7 @@ TEST_CASE("material that fills half of one element is a fraction") {
     CHECK(compute_fractions(body)[1] == doctest::Approx(0.5));
     const MeshInfo info = measure_body(body);
     CHECK(info.fraction_min == doctest::Approx(0.5));
-    CHECK(info.elements_cut == 1);
+    CHECK(info.elements_partial == 1);
     CHECK(info.volume == doctest::Approx(0.25));
     CHECK(info.volume_min == doctest::Approx(1.0 / 6));
 }

@@ -38,6 +38,26 @@ inline Vec3 momentum(const Simulation& simulation) {
     return sum;
 }
 
+inline Vec3 angular_momentum(const Simulation& simulation) {
+    Vec3 sum = {};
+    const Nodes nodes = simulation.nodes();
+    for (std::size_t node = 0; node < nodes.mass.size(); ++node) {
+        const Vec3 at = to_double(nodes.rest[node]) + to_double(nodes.displacement[node]);
+        sum += double(nodes.mass[node]) * cross(at, to_double(nodes.velocity[node]));
+    }
+    return sum;
+}
+
+inline double kinetic_energy(const Simulation& simulation) {
+    double sum = 0;
+    const Nodes nodes = simulation.nodes();
+    for (std::size_t node = 0; node < nodes.mass.size(); ++node) {
+        const Vec3 v = to_double(nodes.velocity[node]);
+        sum += double(nodes.mass[node]) / 2 * dot(v, v);
+    }
+    return sum;
+}
+
 inline double total_mass(const Simulation& simulation) {
     double sum = 0;
     for (const float mass : simulation.nodes().mass) {

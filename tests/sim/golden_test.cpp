@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdlib>
 #include <doctest/doctest.h>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
@@ -13,6 +12,7 @@
 
 #include "base/index.hpp"
 #include "base/vec.hpp"
+#include "temporary_folder.hpp"
 
 using namespace resect;
 
@@ -119,14 +119,12 @@ TEST_CASE("the end of a beam under its own weight sags as CalculiX and GetFEM sa
 
 TEST_CASE("every node of a beam sags as in CalculiX") {
     const Beam beam{{16, 4, 4}, 1e5};
-    const auto folder = std::filesystem::temp_directory_path() / fmt::format("resect_ccx_{}", std::rand());
-    std::filesystem::create_directories(folder);
-    write_inp((folder / "beam.inp").string(), beam);
+    const TemporaryFolder folder;
+    write_inp(folder.file("beam.inp"), beam);
     const int status =
-        std::system(fmt::format("cd {} && ccx -i beam > ccx.log 2>&1", folder.string()).c_str());
+        std::system(fmt::format("cd {} && ccx -i beam > ccx.log 2>&1", folder.file("")).c_str());
     REQUIRE_MESSAGE(status == 0, "CalculiX (ccx) did not run; ./test installs it");
-    const std::vector<Vec3> expected = read_dat((folder / "beam.dat").string());
-    std::filesystem::remove_all(folder);
+    const std::vector<Vec3> expected = read_dat(folder.file("beam.dat"));
 
     const std::vector<Vec3> u = settled_displacement(beam);
     REQUIRE(expected.size() == u.size());

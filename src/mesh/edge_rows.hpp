@@ -17,7 +17,7 @@ inline std::uint64_t edge_key(Index a, Index b) {
 }
 
 /// A row for each edge named so far, in one flat table with linear probing.
-class EdgeMap {
+class EdgeRows {
 public:
     /// The edge's row, or null where it has none.
     const Index* find(std::uint64_t key) const {
