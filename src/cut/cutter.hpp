@@ -59,7 +59,6 @@ Surface update_surface(Cutter& cutter, std::span<const Vec3f> displacement, std:
 
 /// M as a body over R.
 Body material_body(const Cutter& cutter);
-double material_volume(const Cutter& cutter); // m^3, summed over M's tets now
 
 /// The first broken invariant in words (docs/cutting.md, "Checks"), or nothing. O(mesh).
 std::string find_broken_invariant(const Cutter& cutter);

@@ -122,12 +122,4 @@ std::span<const Index> piece_of_copy(Cutter& cutter) {
     return cutter.pieces.of_copy;
 }
 
-double material_volume(const Cutter& cutter) {
-    double volume = 0;
-    for (const MaterialTet& tet : cutter.material.tets) {
-        volume += tet.volume;
-    }
-    return volume;
-}
-
 } // namespace resect

@@ -60,7 +60,9 @@ TEST_CASE("a partly filled body keeps its fill, and elements with two parts star
     CHECK(partial > 20);
     const double mass = mass_of(*cutter);
     double volume = 0;
-    for (const Piece& piece : update_pieces(*cutter, still)) { volume += piece.volume; }
+    for (const Piece& piece : pieces_of(*cutter)) {
+        volume += piece.volume;
+    }
     CHECK(mass == doctest::Approx(volume).epsilon(1e-12));
 
     const CutReport report = stroke(*cutter, across_x(0.33), 40);
