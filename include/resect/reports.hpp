@@ -21,10 +21,10 @@ struct CutReport {
     double area = 0;   // new sheet, one side, m^2
     std::string reason = {};
     Vec3 where = {}; // of the last refusal
-    /// Microseconds by stage: find crossings, bisect edges, tear faces, derive copies and nodes, copy the
-    /// precomputed quantities.
+    /// Microseconds by stage: find crossings, bisect edges, tear faces, derive copies and nodes, check what
+    /// changed, have the precomputed quantities.
     struct {
-        double detect = 0, bisect = 0, tear = 0, derive = 0, quantities = 0;
+        double detect = 0, bisect = 0, tear = 0, derive = 0, check = 0, quantities = 0;
     } us = {};
 };
 

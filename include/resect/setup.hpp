@@ -36,9 +36,23 @@ struct Fixed {
 /// as plain copies of the whole (the paper's rule, which adds mass).
 enum class Weights { fraction, copy };
 
+/// How the precomputed quantities of a new copy are had: copied from the cut element (the paper's method 1),
+/// computed anew for the new copies (its method 2), or computed anew for the whole mesh. The motion is the
+/// same to rounding.
+enum class Quantities { copy, recompute, recompute_all };
+
+/// What becomes of elements that a blade's tip ends in: `soft` cuts through those that it has passed for the
+/// most part, so that shallow cuts open; `hold` leaves them whole.
+enum class Front { soft, hold };
+
 struct CutOptions {
     Weights weights = Weights::fraction;
-    bool verify = false; // check every invariant after every increment; a failure stops the program
+    Quantities quantities = Quantities::copy;
+    Front front = Front::soft;
+    int refine = 0; // 0 to 2: halvings of the material's edges around a blade; elements stay as they are
+    /// Check every invariant after every increment, not only what it touched; an increment that fails is
+    /// refused either way.
+    bool verify = false;
 };
 
 /// A start other than rest, [element node], m and m/s; empty: zero.

@@ -7,6 +7,7 @@
 
 #include "base/vec.hpp"
 #include "cut/edge_map.hpp"
+#include "cut/rows.hpp"
 
 namespace resect {
 
@@ -31,8 +32,25 @@ inline Vec3 to_frame(const BladeFrame& frame, const Vec3& point) {
 
 /// Where a blade crossed an edge of the material.
 struct Crossing {
-    double t = 0;     // from the edge's lower vertex
-    Vec3 normal = {}; // of the sheet, at rest
+    double t = 0;         // from the edge's lower vertex
+    double height = 0;    // m above the tip; below it the crossing is soft until the cut reaches it
+    bool is_soft = false; // beyond the tip: counts only once promoted
+    double expires = 0;   // travel of the blade, m, after which it counts no more
+    Vec3 normal = {};     // of the sheet, at rest
+};
+
+/// A vertex on the sheet of a stroke.
+struct SheetMark {
+    Index stroke = 0;
+    double expires = 0; // travel of the blade, m, after which it counts no more
+    Vec3 normal = {};   // of the sheet, at rest
+};
+
+/// How long elements are too far from the blade to be cut (near.cpp).
+struct Approach {
+    double moved = 0; // m, bound on the motion of blade and tissue towards each other so far
+    std::vector<double> safe_until = {}; // [place in near_order] value of `moved` up to which it cannot meet
+    std::vector<double> block_safe_until = {}; // the least of each block of places
 };
 
 /// A blade and its stroke, which lasts from placing to lifting.
@@ -40,11 +58,21 @@ struct Blade {
     bool placed = false;
     Index stroke = 0; // 1, 2, ... over all blades of a cutter
     BladeFrame frame = {};
+    double travel = 0;              // m, relative to the tissue around the blade, in this stroke
     EdgeMap<Crossing> pending = {}; // of this stroke, not bisected yet
-    std::vector<Index> sheet = {};  // [vertex] last stroke of this blade whose sheet holds the vertex
-    std::vector<Vec3> normal = {};  // [vertex] of that sheet, at rest
+    Rows<SheetMark> sheet = {};     // [vertex]
+    Approach approach = {};
 };
 
-inline bool is_zero(const Blade& blade, Index vertex) { return blade.sheet[row(vertex)] == blade.stroke; }
+inline bool is_zero(const Blade& blade, Index vertex) {
+    const SheetMark& mark = blade.sheet[row(vertex)];
+    return mark.stroke == blade.stroke && blade.travel <= mark.expires;
+}
+
+/// The crossing of an edge that has not expired, or null.
+inline const Crossing* find_crossing(const Blade& blade, Index u, Index w) {
+    const Crossing* found = blade.pending.find(u, w);
+    return found != nullptr && blade.travel <= found->expires ? found : nullptr;
+}
 
 } // namespace resect

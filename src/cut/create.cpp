@@ -8,6 +8,7 @@
 
 #include "cut/homes.hpp"
 #include "cut/partition.hpp"
+#include "cut/stages.hpp"
 #include "cut/weigh.hpp"
 
 namespace resect {
@@ -99,9 +100,9 @@ void fill_material(Cutter& cutter) {
     MaterialMesh& material = cutter.material;
     material.tets.reserve(reserved_tets * body.material.tets.size());
     material.rest = body.material.nodes;
-    material.support.resize(material.rest.size());
-    material.any_tet.assign(material.rest.size(), -1);
-    material.on_cut.assign(material.rest.size(), 0);
+    material.support.grow(material.rest.size(), {});
+    material.any_tet.grow(material.rest.size(), -1);
+    material.on_cut.grow(material.rest.size(), 0);
     for (std::size_t t = 0; t < body.material.tets.size(); ++t) {
         MaterialTet tet;
         tet.vertex = body.material.tets[t];
@@ -109,7 +110,7 @@ void fill_material(Cutter& cutter) {
         tet.volume = signed_volume(body.material, tet.vertex);
         cutter.initial_volume += tet.volume;
         for (const Index v : tet.vertex) {
-            material.any_tet[row(v)] = static_cast<Index>(t);
+            material.any_tet.edit(row(v)) = static_cast<Index>(t);
         }
         material.tets.push_back(tet);
     }
@@ -123,18 +124,18 @@ void measure_grain(Cutter& cutter) {
     for (const MaterialTet& tet : material.tets) {
         largest[row(tet.copy)] = std::max(largest[row(tet.copy)], tet.volume);
     }
-    material.grain.assign(material.rest.size(), 0);
+    std::vector<double> grain_sum(material.rest.size(), 0);
     std::vector<double> tets(material.rest.size(), 0);
     for (const MaterialTet& tet : material.tets) {
         const double grain = std::cbrt(6 * largest[row(tet.copy)]);
         cutter.grain = std::max(cutter.grain, grain);
         for (const Index v : tet.vertex) {
-            material.grain[row(v)] += grain;
+            grain_sum[row(v)] += grain;
             tets[row(v)] += 1;
         }
     }
     for (std::size_t v = 0; v < tets.size(); ++v) {
-        material.grain[v] /= std::max(1.0, tets[v]);
+        material.grain.push_back(grain_sum[v] / std::max(1.0, tets[v]));
     }
 }
 
@@ -166,8 +167,8 @@ Problem link_faces(MaterialMesh& material) {
             return fmt::format("material tet {} is the third at one face: let no more than two share a face",
                                tet_of(b));
         }
-        material.tet(tet_of(a)).link[face_of(a)] = b;
-        material.tet(tet_of(b)).link[face_of(b)] = a;
+        material.edit_tet(tet_of(a)).link[face_of(a)] = b;
+        material.edit_tet(tet_of(b)).link[face_of(b)] = a;
     }
     return {};
 }
@@ -196,7 +197,7 @@ Problem find_supports(Cutter& cutter) {
                     "mend element_of or the vertex",
                     v, element, t);
             }
-            Support& known = material.support[row(v)];
+            Support& known = material.support.edit(row(v));
             if (known.node[0] < 0) { known = found; }
             if (!is_same(known, found, agreement_tolerance)) {
                 return fmt::format(
@@ -225,7 +226,7 @@ std::int8_t find_element_face(const MaterialMesh& material, const MaterialTet& t
 Problem find_element_faces(Cutter& cutter) {
     MaterialMesh& material = cutter.material;
     for (Index t = 0; t < material.tet_count(); ++t) {
-        MaterialTet& tet = material.tet(t);
+        MaterialTet& tet = material.edit_tet(t);
         for (std::size_t k = 0; k < 4; ++k) {
             tet.element_face[k] =
                 find_element_face(material, tet, k, cutter.body.elements.tets[row(tet.copy)]);
@@ -258,7 +259,7 @@ void part_pinched_vertices(MaterialMesh& material) {
             star.clear();
             walk_star(material, static_cast<Index>(v), seed, walked, star);
             if (seed == tets_of[v].front()) {
-                material.any_tet[v] = seed;
+                material.any_tet.edit(v) = seed;
             } else {
                 split_vertex(material, static_cast<Index>(v), star);
             }
@@ -327,15 +328,17 @@ Problem make_copies(Cutter& cutter) {
         const auto copy = static_cast<Index>(mesh.copy_element.size());
         copy_of[row(other)] = copy;
         mesh.copy_element.push_back(element);
-        cutter.sibling.push_back(std::exchange(cutter.sibling[row(element)], copy));
+        cutter.sibling.push_back(std::exchange(cutter.sibling.edit(row(element)), copy));
     }
-    mesh.copy_fraction.assign(mesh.copy_element.size(), 0);
-    mesh.copy_weight.assign(mesh.copy_element.size(), 0);
-    cutter.first_tet.assign(mesh.copy_element.size(), -1);
+    mesh.copy_fraction.grow(mesh.copy_element.size(), 0);
+    mesh.copy_weight.grow(mesh.copy_element.size(), 0);
+    cutter.first_tet.grow(mesh.copy_element.size(), -1);
+    cutter.tet_count.grow(row(elements), 0);
     for (Index t = material.tet_count() - 1; t >= 0; --t) {
-        MaterialTet& tet = material.tet(t);
+        MaterialTet& tet = material.edit_tet(t);
         tet.copy = copy_of[row(part[row(t)])];
-        tet.next = std::exchange(cutter.first_tet[row(tet.copy)], t);
+        tet.next = std::exchange(cutter.first_tet.edit(row(tet.copy)), t);
+        ++cutter.tet_count.edit(row(mesh.copy_element[row(tet.copy)]));
     }
     return {};
 }
@@ -349,7 +352,7 @@ Problem weigh_copies(Cutter& cutter) {
         for (Index m = cutter.first_tet[c]; m >= 0; m = cutter.material.tet(m).next) {
             volume += cutter.material.tet(m).volume;
         }
-        mesh.copy_fraction[c] = volume / cutter.element_volume[element];
+        mesh.copy_fraction.edit(c) = volume / cutter.element_volume[element];
         cutter.element_fill[element] += mesh.copy_fraction[c];
     }
     for (std::size_t e = 0; e < cutter.element_fill.size(); ++e) {
@@ -379,7 +382,7 @@ void make_nodes(Cutter& cutter) {
         pairs.push_back({cutter.element(pair / 4)[face_of(pair)], label[row(pair)], pair});
     }
     std::sort(pairs.begin(), pairs.end());
-    mesh.copy_node.resize(mesh.copy_element.size());
+    mesh.copy_node.grow(mesh.copy_element.size(), {});
     std::vector<Index> members;
     for (std::size_t begin = 0; begin < pairs.size();) {
         const auto node = static_cast<Index>(mesh.node_reference.size());
@@ -387,11 +390,11 @@ void make_nodes(Cutter& cutter) {
         std::size_t end = begin;
         for (; end < pairs.size() && pairs[end].label == pairs[begin].label; ++end) {
             members.push_back(pairs[end].pair);
-            mesh.copy_node[row(pairs[end].pair / 4)][face_of(pairs[end].pair)] = node;
+            mesh.copy_node.edit(row(pairs[end].pair / 4))[face_of(pairs[end].pair)] = node;
         }
         mesh.node_reference.push_back(pairs[begin].reference);
         mesh.node_mass.push_back(sum_mass(cutter, members));
-        mesh.node_home.emplace_back();
+        mesh.node_home.push_back({});
         mesh.node_held.push_back(0);
         update_home(cutter, node, members);
         begin = end;
@@ -428,7 +431,8 @@ Problem build_cutter(Cutter& cutter) {
     if (Problem problem = weigh_copies(cutter); !problem.empty()) { return problem; }
     make_nodes(cutter);
     reserve_copies(cutter);
-    cutter.pieces.of_copy.assign(cutter.mesh.copy_node.size(), -1);
+    cutter.pieces.of_copy.grow(cutter.mesh.copy_node.size(), -1);
+    cutter.near_order = order_by_place(cutter.body.elements);
     cutter.body.material = {};
     cutter.body.element_of = {};
     return {};
@@ -450,7 +454,7 @@ const SimulationMesh& simulation_mesh(const Cutter& cutter) { return cutter.mesh
 
 Body material_body(const Cutter& cutter) {
     Body body = cutter.body;
-    body.material.nodes = cutter.material.rest;
+    body.material.nodes.assign(cutter.material.rest.begin(), cutter.material.rest.end());
     for (const MaterialTet& tet : cutter.material.tets) {
         body.material.tets.push_back(tet.vertex);
         body.element_of.push_back(cutter.mesh.copy_element[row(tet.copy)]);

@@ -48,10 +48,13 @@ void glue_crumb(Cutter& cutter, CutReport& report) {
     if (largest < 0) { return; }
     const TetFace own = scratch.torn[best];
     const TetFace other = scratch.torn[best ^ 1U];
-    material.tet(own.tet).link[own.face] = make_link(other.tet, other.face);
-    material.tet(own.tet).label[own.face] = 0;
-    material.tet(other.tet).link[other.face] = make_link(own.tet, own.face);
-    material.tet(other.tet).label[other.face] = 0;
+    const auto join = [&](const TetFace& face, const TetFace& to) {
+        MaterialTet& tet = material.edit_tet(face.tet);
+        tet.link[face.face] = make_link(to.tet, to.face);
+        tet.label[face.face] = 0;
+    };
+    join(own, other);
+    join(other, own);
     report.area -= largest / 2;
 }
 

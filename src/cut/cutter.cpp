@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cut/cutter.hpp"
 
+#include <fmt/format.h>
+#include <utility>
+
 #include "base/assert.hpp"
 #include "base/clock.hpp"
 #include "cut/stages.hpp"
+#include "cut/transaction.hpp"
 
 namespace resect {
 namespace {
 
-void refuse(CutReport& report, const char* reason, const Vec3& where) {
+void refuse(CutReport& report, std::string reason, const Vec3& where) {
     ++report.refused;
-    report.reason = reason;
+    report.reason = std::move(reason);
     report.where = where;
 }
 
@@ -18,35 +22,77 @@ void refuse(CutReport& report, const char* reason, const Vec3& where) {
 /// for.
 [[maybe_unused]] constexpr std::size_t most_elements_verified = 2000;
 
-void verify(const Cutter& cutter) {
+bool is_verified(const Cutter& cutter) {
     bool wanted = cutter.setup.options.verify;
 #ifdef RESECT_VERIFY
     wanted = wanted || cutter.element_volume.size() < most_elements_verified;
 #endif
-    if (!wanted) { return; }
-    const std::string broken = find_broken_invariant(cutter);
-    if (!broken.empty()) { fail_assertion(broken.c_str(), __FILE__, __LINE__); }
+    return wanted;
 }
 
-void run_stages(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delta, CutReport& report) {
+/// Why the change that the increment made must not stand, or nothing.
+std::string find_objection(const Cutter& cutter) {
+    if (cutter.scratch.is_runaway) {
+        return "more edges would be cut than one sweep can: sweep less at once";
+    }
+    if (const char* fault = find_fault(cutter)) { return fault; }
+    return is_verified(cutter) ? find_broken_invariant(cutter) : "";
+}
+
+void begin_increment(Cutter& cutter, Delta& delta) {
     Scratch& scratch = cutter.scratch;
+    delta.clear();
     scratch.queue.clear();
     scratch.dirty.clear();
+    scratch.torn.clear();
     scratch.bisections = 0;
+    scratch.is_runaway = false;
     scratch.queued.clear(cutter.material.tets.size());
+}
+
+/// Runs the stages up to the one that is told to fail, if any; false: that one was met.
+bool run_stages(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delta, CutReport& report) {
+    Scratch& scratch = cutter.scratch;
+    const BladeBox box = make_box(cutter, sweep);
     Stopwatch watch;
-    detect_crossings(cutter, blade, sweep, report);
+    find_near_copies(cutter, blade, sweep, box);
+    refine_near(cutter, sweep, box);
+    if (cutter.failing == Stage::refine) { return false; }
+    detect_crossings(cutter, blade, sweep, box, report);
     report.us.detect += watch.lap();
-    if (scratch.dirty.empty()) { return; }
+    if (cutter.failing == Stage::detect) { return false; }
+    if (scratch.dirty.empty()) { return true; }
     bisect_separated(cutter, blade);
     report.us.bisect += watch.lap();
+    if (cutter.failing == Stage::bisect) { return false; }
     tear_sheet(cutter, blade, report);
     report.us.tear += watch.lap();
+    if (cutter.failing == Stage::tear) { return false; }
     if (!scratch.torn.empty()) { derive_simulation(cutter, delta, report); }
     report.us.derive += watch.lap();
-    if (scratch.bisections == 0 && scratch.torn.empty()) { return; }
-    ++cutter.revision;
-    verify(cutter);
+    return cutter.failing != Stage::derive;
+}
+
+/// Makes the whole increment, or none of it: then the blade has passed without cutting.
+void run_increment(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delta, CutReport& report) {
+    const CutReport before = report;
+    begin_increment(cutter, delta);
+    open_state(cutter);
+    std::string objection = run_stages(cutter, blade, sweep, delta, report) ? "" : "told to fail";
+    Stopwatch watch;
+    if (objection.empty() && !cutter.scratch.dirty.empty()) { objection = find_objection(cutter); }
+    report.us.check += watch.lap();
+    if (objection.empty()) {
+        close_state(cutter);
+        if (cutter.scratch.bisections > 0 || !cutter.scratch.torn.empty()) { ++cutter.revision; }
+        return;
+    }
+    take_back_state(cutter);
+    delta.clear();
+    const auto us = report.us;
+    report = before;
+    report.us = us;
+    refuse(report, fmt::format("the blade passed without cutting: {}", objection), sweep.to.tip);
 }
 
 } // namespace
@@ -83,9 +129,10 @@ void place_blade(Cutter& cutter, Index blade, const Edge& pose) {
     placed.placed = true;
     placed.stroke = ++cutter.strokes;
     placed.frame = make_frame(pose);
+    placed.travel = 0;
     placed.pending.clear();
-    placed.sheet.resize(cutter.material.rest.size(), 0);
-    placed.normal.resize(cutter.material.rest.size());
+    placed.sheet.grow(cutter.material.rest.size(), {});
+    placed.approach = {};
 }
 
 void lift_blade(Cutter& cutter, Index blade) {
@@ -114,7 +161,7 @@ void sweep_blade(Cutter& cutter, Index blade, const Edge& to, std::span<const Ve
     RESECT_ASSERT(after.size() == cutter.mesh.node_reference.size());
     Blade& sweeping = cutter.blades[row(blade)];
     const Sweep sweep = {sweeping.frame, carry_frame(sweeping.frame, to), before, after};
-    run_stages(cutter, sweeping, sweep, delta, report);
+    run_increment(cutter, sweeping, sweep, delta, report);
     sweeping.frame = sweep.to;
 }
 

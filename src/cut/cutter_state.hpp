@@ -28,13 +28,18 @@ struct TetFace {
 /// What one increment works with; kept only so that nothing is allocated again.
 struct Scratch {
     // detect
-    std::vector<std::uint8_t> node_outside = {}; // [node]
+    std::vector<std::uint8_t> node_outside = {}; // [node] where classified
+    Marks classified = {};                       // nodes
+    std::vector<Index> near_copies = {};         // that may meet the blade
     std::vector<Track> tracks = {};              // [vertex] where tracked
     Marks tracked = {};                          // vertices
-    std::vector<Index> near = {};                // vertices whose path meets the blade
+    double path_sum = 0;                         // m, of tracked vertices past the blade
+    Index path_count = 0;
+    std::vector<Index> near = {}; // vertices whose path meets the blade
     struct Event {
-        Index u = 0, w = 0, tet = 0; // edge u < w, and a tet around it
-        double t = 0;                // from u
+        MaterialEdge edge = {}; // u < w
+        double t = 0;           // from u
+        double height = 0;      // m above the tip
     };
     std::vector<Event> events = {};
     Index off_grid = 0; // tets left out because they are off the integer grid
@@ -44,7 +49,8 @@ struct Scratch {
     Marks queued = {};             // tets that have been in the queue
     std::vector<Index> dirty = {}; // the same as a list
     Index bisections = 0;
-    Marks walked = {}; // tets
+    bool is_runaway = false; // more bisections than an increment can want
+    Marks walked = {};       // tets
     std::vector<Index> ring = {}, star = {};
     std::vector<TetFace> torn = {};
     struct Seed {
@@ -99,12 +105,30 @@ struct SurfaceCache {
 
 struct PieceCache {
     std::uint64_t revision = 0;
-    std::vector<Index> of_copy = {}; // ids; a new copy starts with its parent's
-    std::vector<Piece> pieces = {};  // by id
+    Rows<Index> of_copy = {};       // ids; a new copy starts with its parent's
+    std::vector<Piece> pieces = {}; // by id
     Index next_id = 0;
 };
 
-struct Cutter {
+/// What cuts change, all of it: a snapshot is a copy.
+struct CutterState {
+    MaterialMesh material = {};
+    SimulationMesh mesh = {};
+    Rows<Index> first_tet = {};  // [copy] head of the list of its tets
+    Rows<Index> sibling = {};    // [copy] next copy of the same element, or -1
+    Rows<Index> first_copy = {}; // [element] head of that list
+    Rows<Index> tet_count = {};  // [element] material tets
+
+    std::vector<Blade> blades = {};
+    Index strokes = 0;          // begun so far
+    std::uint64_t revision = 1; // of the material's topology
+    PieceCache pieces = {};
+};
+
+/// Stages of an increment, for tests that make one fail.
+enum class Stage { none, refine, detect, bisect, tear, derive };
+
+struct Cutter : CutterState {
     Body body = {}; // R; its material is in `material`
     CutterSetup setup = {};
     std::vector<double> element_volume = {}; // [element] m^3
@@ -113,20 +137,13 @@ struct Cutter {
     double mean_volume = 0;                  // m^3, of an element
     double unit = 1;                         // m, of the integer grid
     double grain = 0;                        // m, the largest of the material
+    std::vector<Index> near_order = {};      // elements, neighbours close together (near.cpp)
+    Stage failing = Stage::none;             // after which an increment is made to fail
 
-    MaterialMesh material = {};
-    SimulationMesh mesh = {};
-    std::vector<Index> first_tet = {};  // [copy] head of the list of its tets
-    std::vector<Index> sibling = {};    // [copy] next copy of the same element, or -1
-    std::vector<Index> first_copy = {}; // [element] head of that list
-
-    std::vector<Blade> blades = {};
-    Index strokes = 0;          // begun so far
-    std::uint64_t revision = 1; // of the material's topology
-    PieceCache pieces = {};
     SurfaceCache surface = {};
     Scratch scratch = {};
 
+    Index element_of(Index tet) const { return mesh.copy_element[row(material.tet(tet).copy)]; }
     const Tet& element(Index copy) const { return body.elements.tets[row(mesh.copy_element[row(copy)])]; }
 };
 

@@ -47,7 +47,7 @@ Index append_copy(Cutter& cutter, Index parent) {
     mesh.copy_weight.push_back(0);
     cutter.first_tet.push_back(-1);
     cutter.sibling.push_back(cutter.sibling[row(parent)]);
-    cutter.sibling[row(parent)] = copy;
+    cutter.sibling.edit(row(parent)) = copy;
     cutter.pieces.of_copy.push_back(cutter.pieces.of_copy[row(parent)]);
     return copy;
 }
@@ -57,13 +57,14 @@ void fill_copy(Cutter& cutter, Index copy, const Scratch::Part& part) {
     Index next = -1;
     for (std::size_t i = part.end; i > part.begin; --i) {
         const Index m = cutter.scratch.part_tets[i - 1];
-        cutter.material.tet(m).copy = copy;
-        cutter.material.tet(m).next = next;
+        MaterialTet& tet = cutter.material.edit_tet(m);
+        tet.copy = copy;
+        tet.next = next;
         next = m;
     }
-    cutter.first_tet[row(copy)] = next;
+    cutter.first_tet.edit(row(copy)) = next;
     const std::size_t element = row(cutter.mesh.copy_element[row(copy)]);
-    cutter.mesh.copy_fraction[row(copy)] = part.volume / cutter.element_volume[element];
+    cutter.mesh.copy_fraction.edit(row(copy)) = part.volume / cutter.element_volume[element];
 }
 
 bool has_one_copy(const Cutter& cutter, Index element) {
@@ -193,12 +194,11 @@ void write_class(Cutter& cutter, const Scratch::NodeClass& found, Index node, De
     for (const Index pair : pairs) {
         const Index copy = pair / 4;
         const std::size_t corner = face_of(pair);
-        Index& held = cutter.mesh.copy_node[row(copy)][corner];
-        if (held == node) { continue; }
-        held = node;
+        if (cutter.mesh.copy_node[row(copy)][corner] == node) { continue; }
+        cutter.mesh.copy_node.edit(row(copy))[corner] = node;
         delta.corners.push_back({copy, static_cast<Index>(corner), node});
     }
-    cutter.mesh.node_mass[row(node)] = found.mass;
+    cutter.mesh.node_mass.edit(row(node)) = found.mass;
     update_home(cutter, node, pairs);
     delta.touched_nodes.push_back(node);
 }

@@ -12,43 +12,17 @@ namespace {
 constexpr double snap_share = 0.03;
 constexpr double snap_share_on_cut = 0.05;
 
+/// How far beyond its tip a blade sees, as a share of the local grain (cutting.md G.3 by way of
+/// docs/cutting.md, "Shallow cuts").
+constexpr double soft_reach = 1.7;
+/// Travel after which marks and crossings expire, in grains: a stroke that comes back to its own cut crosses
+/// it as it would another's.
+constexpr double lifetime = 3;
+/// Material tets of an element above which it is cut along its faces only.
+constexpr Index crowd = 200;
+
 double snap_distance(const MaterialMesh& material, Index vertex) {
     return (material.on_cut[row(vertex)] != 0 ? snap_share_on_cut : snap_share) * material.grain[row(vertex)];
-}
-
-/// The blade with its snapping distance around it, in the blade's frame.
-struct BladeBox {
-    double across = 0, length = 0; // m
-};
-
-std::uint8_t sides_beyond(const BladeBox& box, const Vec3& p) {
-    const bool beyond[6] = {p[0] > box.across, p[0]<-box.across, p[1]> box.across, p[1] < -box.across,
-                            p[2]<-box.across, p[2]> box.length + box.across};
-    unsigned bits = 0;
-    for (unsigned i = 0; i < 6; ++i) {
-        bits |= unsigned{beyond[i]} << i;
-    }
-    return static_cast<std::uint8_t>(bits);
-}
-
-void classify_nodes(Cutter& cutter, const Sweep& sweep, const BladeBox& box) {
-    const std::size_t count = cutter.mesh.node_reference.size();
-    cutter.scratch.node_outside.resize(count);
-    for (std::size_t n = 0; n < count; ++n) {
-        const Vec3& rest = cutter.body.elements.nodes[row(cutter.mesh.node_reference[n])];
-        const auto before = sides_beyond(box, to_frame(sweep.from, rest + to_double(sweep.before[n])));
-        const auto after = sides_beyond(box, to_frame(sweep.to, rest + to_double(sweep.after[n])));
-        cutter.scratch.node_outside[n] = before & after;
-    }
-}
-
-/// All corners stay beyond one side of the box, so nothing between them can meet the blade.
-bool is_copy_outside(const Cutter& cutter, std::size_t copy) {
-    unsigned common = 63;
-    for (const Index node : cutter.mesh.copy_node[copy]) {
-        common &= cutter.scratch.node_outside[row(node)];
-    }
-    return common != 0;
 }
 
 /// Squared distance of the path from the blade's line where it is nearest, and the height there.
@@ -72,6 +46,8 @@ const Track& track_vertex(Cutter& cutter, const Sweep& sweep, const BladeBox& bo
     if (!scratch.tracked.set(vertex)) { return track; }
     const Vec3 before = to_frame(sweep.from, displaced_position(cutter, vertex, sweep.before));
     const Vec3 after = to_frame(sweep.to, displaced_position(cutter, vertex, sweep.after));
+    scratch.path_sum += std::hypot(after[0] - before[0], after[1] - before[1]);
+    ++scratch.path_count;
     const double scale = 1 / cutter.unit;
     track.outside = sides_beyond(box, before) & sides_beyond(box, after);
     track.height_before = before[2];
@@ -151,8 +127,8 @@ void find_tet_crossings(Cutter& cutter, const Sweep& sweep, const BladeBox& box,
     for (const auto& corners : edge_corners) {
         const auto [u, w] = std::minmax(vertex[row(corners[0])], vertex[row(corners[1])]);
         const Hit hit = find_edge_hit(scratch.tracks[row(u)], scratch.tracks[row(w)]);
-        if (hit.hit && hit.height >= 0 && hit.height <= sweep.to.length) {
-            scratch.events.push_back({u, w, tet, hit.t});
+        if (hit.hit && hit.height >= -box.beyond_tip && hit.height <= sweep.to.length) {
+            scratch.events.push_back({{u, w, tet}, hit.t, hit.height});
         }
     }
 }
@@ -183,60 +159,121 @@ GridPoint motion_of(const Track& track) {
     return {track.after.x - track.before.x, track.after.y - track.before.y};
 }
 
-void snap_vertices(Cutter& cutter, Blade& blade, const Sweep& sweep) {
+double mean_grain(const MaterialMesh& material, const MaterialEdge& edge) {
+    return 0.5 * (material.grain[row(edge.u)] + material.grain[row(edge.w)]);
+}
+
+/// Puts a vertex on the sheet, or notes that the blade has passed it again.
+void mark_zero(Cutter& cutter, Blade& blade, Index vertex, const Vec3& normal) {
+    const bool was_zero = is_zero(blade, vertex);
+    SheetMark& mark = blade.sheet.edit(row(vertex));
+    mark.expires = blade.travel + lifetime * cutter.material.grain[row(vertex)];
+    if (was_zero) { return; }
+    mark.stroke = blade.stroke;
+    mark.normal = normal;
     Scratch& scratch = cutter.scratch;
-    for (const Index vertex : scratch.near) {
-        if (is_zero(blade, vertex)) { continue; }
-        const Index tet = cutter.material.any_tet[row(vertex)];
-        blade.sheet[row(vertex)] = blade.stroke;
-        blade.normal[row(vertex)] =
-            find_sheet_normal(cutter, sweep, tet, motion_of(scratch.tracks[row(vertex)]));
-        scratch.star.clear();
-        scratch.walked.clear(cutter.material.tets.size());
-        walk_star(cutter.material, vertex, tet, scratch.walked, scratch.star);
-        for (const Index m : scratch.star) {
-            queue_tet(cutter, m);
-        }
+    scratch.star.clear();
+    scratch.walked.clear(cutter.material.tets.size());
+    walk_star(cutter.material, vertex, cutter.material.any_tet[row(vertex)], scratch.walked, scratch.star);
+    for (const Index m : scratch.star) {
+        queue_tet(cutter, m);
     }
 }
 
-/// The first crossing of an edge in a stroke stays; edges with an end on the sheet need none.
-void record_crossings(Cutter& cutter, Blade& blade, const Sweep& sweep) {
-    const MaterialMesh& material = cutter.material;
-    for (const Scratch::Event& event : cutter.scratch.events) {
-        if (is_zero(blade, event.u) || is_zero(blade, event.w)) { continue; }
-        if (blade.pending.find(event.u, event.w) != nullptr) { continue; }
-        const double grain = 0.5 * (material.grain[row(event.u)] + material.grain[row(event.w)]);
-        const double edge = length(material.rest[row(event.u)] - material.rest[row(event.w)]);
-        const double margin = std::min(0.25, snap_share * grain / edge);
-        const GridPoint u = motion_of(cutter.scratch.tracks[row(event.u)]);
-        const GridPoint w = motion_of(cutter.scratch.tracks[row(event.w)]);
-        const Vec3 normal = find_sheet_normal(cutter, sweep, event.tet, {u.x + w.x, u.y + w.y});
-        blade.pending.insert(event.u, event.w, {std::clamp(event.t, margin, 1 - margin), normal});
-        queue_ring(cutter, event.u, event.w);
+void snap_vertices(Cutter& cutter, Blade& blade, const Sweep& sweep) {
+    for (const Index vertex : cutter.scratch.near) {
+        const Index tet = cutter.material.any_tet[row(vertex)];
+        const GridPoint motion = motion_of(cutter.scratch.tracks[row(vertex)]);
+        mark_zero(cutter, blade, vertex, find_sheet_normal(cutter, sweep, tet, motion));
     }
+}
+
+/// Some of the tets lie in an element whose material has been cut up so much that only its faces shall be
+/// torn from now on.
+bool is_crowded(const Cutter& cutter, std::span<const Index> tets) {
+    return std::any_of(tets.begin(), tets.end(),
+                       [&](Index tet) { return cutter.tet_count[row(cutter.element_of(tet))] >= crowd; });
+}
+
+/// The first crossing of an edge stays until it expires, but one above the tip takes the place of one beyond
+/// it; edges with an end on the sheet need none.
+void record_crossing(Cutter& cutter, Blade& blade, const Sweep& sweep, const Scratch::Event& event) {
+    const MaterialMesh& material = cutter.material;
+    const auto& [u, w, tet] = event.edge;
+    if (is_zero(blade, u) || is_zero(blade, w)) { return; }
+    const double grain = mean_grain(material, event.edge);
+    const bool is_soft = event.height < 0;
+    if (is_soft && event.height < -soft_reach * grain) { return; }
+    const Crossing* known = find_crossing(blade, u, w);
+    if (known != nullptr && (is_soft || !known->is_soft)) { return; }
+    const GridPoint of_u = motion_of(cutter.scratch.tracks[row(u)]);
+    const GridPoint of_w = motion_of(cutter.scratch.tracks[row(w)]);
+    const Vec3 normal = find_sheet_normal(cutter, sweep, tet, {of_u.x + of_w.x, of_u.y + of_w.y});
+    std::vector<Index>& ring = cutter.scratch.ring;
+    find_ring(cutter.material, event.edge, cutter.scratch.walked, ring);
+    if (is_crowded(cutter, ring)) {
+        if (!is_soft) { mark_zero(cutter, blade, event.t < 0.5 ? u : w, normal); }
+        return;
+    }
+    const double edge = length(material.rest[row(u)] - material.rest[row(w)]);
+    const double margin = std::min(0.25, snap_share * grain / edge);
+    blade.pending.set(u, w,
+                      {.t = std::clamp(event.t, margin, 1 - margin),
+                       .height = event.height,
+                       .is_soft = is_soft,
+                       .expires = blade.travel + lifetime * grain,
+                       .normal = normal});
+    for (const Index m : ring) {
+        queue_tet(cutter, m);
+    }
+}
+
+/// How far the blade has gone past the tissue around it, or through the air.
+void note_travel(Cutter& cutter, Blade& blade, const Sweep& sweep) {
+    const Scratch& scratch = cutter.scratch;
+    blade.travel += scratch.path_count > 0 ? scratch.path_sum / scratch.path_count
+                                           : length(sweep.to.tip - sweep.from.tip);
 }
 
 } // namespace
 
-void detect_crossings(Cutter& cutter, Blade& blade, const Sweep& sweep, CutReport& report) {
+BladeBox make_box(const Cutter& cutter, const Sweep& sweep) {
+    const double across = snap_share_on_cut * cutter.grain + 1e-6 * cutter.unit;
+    const double beyond_tip = cutter.setup.options.front == Front::soft ? soft_reach * cutter.grain : 0;
+    return {across, beyond_tip, sweep.to.length};
+}
+
+std::uint8_t sides_beyond(const BladeBox& box, const Vec3& p) {
+    const bool beyond[6] = {p[0] > box.across, p[0]<-box.across, p[1]> box.across, p[1] < -box.across,
+                            p[2]<-box.beyond_tip - box.across, p[2]> box.length + box.across};
+    unsigned bits = 0;
+    for (unsigned i = 0; i < 6; ++i) {
+        bits |= unsigned{beyond[i]} << i;
+    }
+    return static_cast<std::uint8_t>(bits);
+}
+
+void detect_crossings(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box,
+                      CutReport& report) {
     Scratch& scratch = cutter.scratch;
-    const BladeBox box = {snap_share_on_cut * cutter.grain + 1e-6 * cutter.unit, sweep.to.length};
     scratch.near.clear();
     scratch.events.clear();
     scratch.off_grid = 0;
+    scratch.path_sum = 0;
+    scratch.path_count = 0;
     scratch.tracked.clear(cutter.material.rest.size());
     scratch.tracks.resize(cutter.material.rest.size());
-    classify_nodes(cutter, sweep, box);
-    for (std::size_t copy = 0; copy < cutter.mesh.copy_node.size(); ++copy) {
-        if (is_copy_outside(cutter, copy)) { continue; }
-        for (Index m = cutter.first_tet[copy]; m >= 0; m = cutter.material.tet(m).next) {
+    for (const Index copy : scratch.near_copies) {
+        for (Index m = cutter.first_tet[row(copy)]; m >= 0; m = cutter.material.tet(m).next) {
             find_tet_crossings(cutter, sweep, box, m, report);
         }
     }
     if (scratch.off_grid > 0) { ++report.refused; }
+    note_travel(cutter, blade, sweep);
     snap_vertices(cutter, blade, sweep);
-    record_crossings(cutter, blade, sweep);
+    for (const Scratch::Event& event : scratch.events) {
+        record_crossing(cutter, blade, sweep, event);
+    }
 }
 
 } // namespace resect

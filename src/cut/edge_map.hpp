@@ -11,16 +11,11 @@
 namespace resect {
 
 /// Values by undirected edge: open addressing with linear probing; nothing depends on the order of its slots.
+/// Changes since open() can be taken back.
 template <class Value>
 class EdgeMap {
 public:
     std::size_t size() const { return size_; }
-
-    Value* find(Index a, Index b) {
-        if (size_ == 0) { return nullptr; }
-        Slot& slot = slots_[slot_of(key_of(a, b))];
-        return slot.key == empty ? nullptr : &slot.value;
-    }
 
     const Value* find(Index a, Index b) const {
         if (size_ == 0) { return nullptr; }
@@ -35,34 +30,21 @@ public:
         return slot.value;
     }
 
-    /// Keeps the value that is there, if any; invalidates pointers.
-    void insert(Index a, Index b, const Value& value) {
-        if (2 * (size_ + 1) > slots_.size()) { grow(); }
+    /// Invalidates pointers.
+    void set(Index a, Index b, const Value& value) {
         const std::uint64_t key = key_of(a, b);
-        Slot& slot = slots_[slot_of(key)];
-        if (slot.key != empty) { return; }
-        slot = {key, value};
-        ++size_;
+        note(key);
+        put(key, value);
     }
 
     void erase(Index a, Index b) {
-        if (size_ == 0) { return; }
-        std::size_t hole = slot_of(key_of(a, b));
-        if (slots_[hole].key == empty) { return; }
-        --size_;
-        // Later entries of the run move up where the hole lies between their home and them.
-        for (std::size_t at = after(hole); slots_[at].key != empty; at = after(at)) {
-            const std::size_t home = home_of(slots_[at].key);
-            const bool stays = hole < at ? (hole < home && home <= at) : (hole < home || home <= at);
-            if (!stays) {
-                slots_[hole] = slots_[at];
-                hole = at;
-            }
-        }
-        slots_[hole].key = empty;
+        const std::uint64_t key = key_of(a, b);
+        note(key);
+        remove(key);
     }
 
     void clear() {
+        close();
         if (size_ == 0) { return; }
         for (Slot& slot : slots_) {
             slot.key = empty;
@@ -70,11 +52,36 @@ public:
         size_ = 0;
     }
 
+    void open() {
+        notes_.clear();
+        is_open_ = true;
+    }
+    void close() {
+        notes_.clear();
+        is_open_ = false;
+    }
+    void take_back() {
+        for (; !notes_.empty(); notes_.pop_back()) {
+            const Note& last = notes_.back();
+            if (last.was_there) {
+                put(last.slot.key, last.slot.value);
+            } else {
+                remove(last.slot.key);
+            }
+        }
+        close();
+    }
+
 private:
     static constexpr std::uint64_t empty = 0; // edge (0, 0), which cannot be
     struct Slot {
         std::uint64_t key = empty;
         Value value = {};
+    };
+    /// What was there before a change.
+    struct Note {
+        Slot slot = {};
+        bool was_there = false;
     };
 
     static std::uint64_t key_of(Index a, Index b) {
@@ -98,6 +105,37 @@ private:
         return at;
     }
 
+    void note(std::uint64_t key) {
+        if (!is_open_) { return; }
+        const Slot* slot = size_ == 0 ? nullptr : &slots_[slot_of(key)];
+        const bool was_there = slot != nullptr && slot->key != empty;
+        notes_.push_back({{key, was_there ? slot->value : Value{}}, was_there});
+    }
+
+    void put(std::uint64_t key, const Value& value) {
+        if (2 * (size_ + 1) > slots_.size()) { grow(); }
+        Slot& slot = slots_[slot_of(key)];
+        if (slot.key == empty) { ++size_; }
+        slot = {key, value};
+    }
+
+    void remove(std::uint64_t key) {
+        if (size_ == 0) { return; }
+        std::size_t hole = slot_of(key);
+        if (slots_[hole].key == empty) { return; }
+        --size_;
+        // Later entries of the run move up where the hole lies between their home and them.
+        for (std::size_t at = after(hole); slots_[at].key != empty; at = after(at)) {
+            const std::size_t home = home_of(slots_[at].key);
+            const bool stays = hole < at ? (hole < home && home <= at) : (hole < home || home <= at);
+            if (!stays) {
+                slots_[hole] = slots_[at];
+                hole = at;
+            }
+        }
+        slots_[hole].key = empty;
+    }
+
     void grow() {
         std::vector<Slot> old =
             std::exchange(slots_, std::vector<Slot>(slots_.empty() ? 64 : 2 * slots_.size()));
@@ -108,6 +146,8 @@ private:
 
     std::vector<Slot> slots_ = {};
     std::size_t size_ = 0;
+    std::vector<Note> notes_ = {};
+    bool is_open_ = false;
 };
 
 } // namespace resect

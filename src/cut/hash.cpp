@@ -7,7 +7,7 @@ namespace resect {
 
 std::uint64_t hash_topology(const Cutter& cutter) {
     const SimulationMesh& mesh = cutter.mesh;
-    const auto all = []<class T>(const std::vector<T>& values) { return std::span<const T>(values); };
+    const auto all = []<class T>(const Rows<T>& rows) { return rows.view(); };
     Hash hash;
     hash.add(all(mesh.copy_node))
         .add(all(mesh.copy_element))

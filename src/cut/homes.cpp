@@ -38,11 +38,11 @@ Index find_home(const Cutter& cutter, std::span<const Index> pairs, Index refere
 void update_home(Cutter& cutter, Index node, std::span<const Index> pairs) {
     SimulationMesh& mesh = cutter.mesh;
     const Index home = find_home(cutter, pairs, mesh.node_reference[row(node)]);
-    mesh.node_home[row(node)] = cutter.material.rest[row(home)];
-    mesh.node_held[row(node)] = 0;
+    mesh.node_home.edit(row(node)) = cutter.material.rest[row(home)];
+    mesh.node_held.edit(row(node)) = 0;
     for (const HeldRegion& region : cutter.setup.held) {
         if (holds(region, cutter.material.rest[row(home)], cutter.material.support[row(home)])) {
-            mesh.node_held[row(node)] = 1;
+            mesh.node_held.edit(row(node)) = 1;
         }
     }
 }

@@ -15,6 +15,15 @@ Index half_of(std::span<const Index> ring, Index first, Index tet) {
     return first + static_cast<Index>(at - ring.begin());
 }
 
+/// The corner that is neither on the edge nor `corner`.
+std::size_t other_corner(const Tet& vertex, const MaterialEdge& edge, std::size_t corner) {
+    std::size_t other = 0;
+    while (other == corner || vertex[other] == edge.u || vertex[other] == edge.w) {
+        ++other;
+    }
+    return other;
+}
+
 Index append_between(MaterialMesh& mesh, Index u, Index w, double t) {
     const Index z = mesh.vertex_count();
     mesh.rest.push_back((1 - t) * mesh.rest[row(u)] + t * mesh.rest[row(w)]);
@@ -41,11 +50,29 @@ void walk_star(const MaterialMesh& mesh, Index vertex, Index seed, Marks& marks,
     }
 }
 
-void find_ring(const MaterialMesh& mesh, Index u, Index w, Marks& marks, std::vector<Index>& ring) {
+bool find_ring(const MaterialMesh& mesh, const MaterialEdge& edge, Marks& marks, std::vector<Index>& ring) {
+    ring.clear();
+    Index at = edge.tet;
+    std::size_t leave = 0; // the face to leave through
+    while (mesh.tet(at).vertex[leave] == edge.u || mesh.tet(at).vertex[leave] == edge.w) {
+        ++leave;
+    }
+    do {
+        ring.push_back(at);
+        const MaterialTet& tet = mesh.tet(at);
+        const Index link = tet.link[leave];
+        if (link < 0) { break; }
+        const Index pivot = tet.vertex[other_corner(tet.vertex, edge, leave)];
+        at = tet_of(link);
+        leave = corner_of(mesh.tet(at).vertex, pivot);
+    } while (at != edge.tet);
+    const bool is_closed = ring.size() > 2 && at == edge.tet;
+    if (is_closed) { return true; }
     ring.clear();
     marks.clear(mesh.tets.size());
-    walk_star(mesh, u, mesh.any_tet[row(u)], marks, ring);
-    std::erase_if(ring, [&](Index tet) { return corner_of(mesh.tet(tet).vertex, w) == 4; });
+    walk_star(mesh, edge.u, edge.tet, marks, ring);
+    std::erase_if(ring, [&](Index tet) { return corner_of(mesh.tet(tet).vertex, edge.w) == 4; });
+    return false;
 }
 
 Index bisect_edge(MaterialMesh& mesh, Index u, Index w, double t, std::span<const Index> ring) {
@@ -53,14 +80,14 @@ Index bisect_edge(MaterialMesh& mesh, Index u, Index w, double t, std::span<cons
     const Index first = mesh.tet_count();
     for (const Index m : ring) {
         const MaterialTet whole = mesh.tet(m);
-        mesh.tet(m).next = mesh.tet_count();
+        mesh.edit_tet(m).next = mesh.tet_count();
         mesh.tets.push_back(whole);
     }
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Index m = ring[i];
         const Index b = first + static_cast<Index>(i);
-        MaterialTet& near = mesh.tet(m);
-        MaterialTet& far = mesh.tet(b);
+        MaterialTet& near = mesh.edit_tet(m);
+        MaterialTet& far = mesh.edit_tet(b);
         const std::size_t iu = corner_of(near.vertex, u);
         const std::size_t iw = corner_of(near.vertex, w);
         near.vertex[iw] = z;
@@ -68,20 +95,20 @@ Index bisect_edge(MaterialMesh& mesh, Index u, Index w, double t, std::span<cons
         near.volume = t * far.volume;
         far.volume -= near.volume;
         if (far.link[iu] >= 0) {
-            mesh.tet(tet_of(far.link[iu])).link[face_of(far.link[iu])] = make_link(b, iu);
+            mesh.edit_tet(tet_of(far.link[iu])).link[face_of(far.link[iu])] = make_link(b, iu);
         }
         near.link[iu] = make_link(b, iw);
         far.link[iw] = make_link(m, iu);
         near.element_face[iu] = far.element_face[iw] = -1;
         near.label[iu] = far.label[iw] = 0;
-        mesh.any_tet[row(w)] = b;
+        mesh.any_tet.edit(row(w)) = b;
         for (std::size_t k = 0; k < 4; ++k) {
-            if (k != iw) { mesh.any_tet[row(near.vertex[k])] = m; }
+            if (k != iw) { mesh.any_tet.edit(row(near.vertex[k])) = m; }
             if (k == iu || k == iw || near.link[k] < 0) { continue; }
             far.link[k] = make_link(half_of(ring, first, tet_of(near.link[k])), face_of(near.link[k]));
         }
     }
-    mesh.any_tet[row(z)] = ring.front();
+    mesh.any_tet.edit(row(z)) = ring.front();
     return z;
 }
 
@@ -94,7 +121,7 @@ Index split_vertex(MaterialMesh& mesh, Index vertex, std::span<const Index> star
     mesh.grain.push_back(mesh.grain[from]);
     mesh.on_cut.push_back(mesh.on_cut[from]);
     for (const Index m : star) {
-        Tet& corners = mesh.tet(m).vertex;
+        Tet& corners = mesh.edit_tet(m).vertex;
         corners[corner_of(corners, vertex)] = twin;
     }
     return twin;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cut/marks.hpp"
+#include "cut/rows.hpp"
 #include "cut/support.hpp"
 
 namespace resect {
@@ -29,14 +29,14 @@ struct MaterialTet {
 /// M, the material: conforming tets that tile the filled part of the elements. Changed in two ways only, both
 /// legal anywhere: an edge is bisected, a vertex is split between parts of its star (and links are dropped).
 struct MaterialMesh {
-    std::vector<MaterialTet> tets = {};
-    std::vector<Vec3> rest = {};           // [vertex] m
-    std::vector<Support> support = {};     // [vertex] over element nodes
-    std::vector<Index> any_tet = {};       // [vertex] one tet of its star; -1: unused
-    std::vector<double> grain = {};        // [vertex] m, edge of the tets here at creation
-    std::vector<std::uint8_t> on_cut = {}; // [vertex] 1: on a sheet that was torn
+    Rows<MaterialTet> tets = {};
+    Rows<Vec3> rest = {};           // [vertex] m
+    Rows<Support> support = {};     // [vertex] over element nodes
+    Rows<Index> any_tet = {};       // [vertex] one tet of its star; -1: unused
+    Rows<double> grain = {};        // [vertex] m, edge of the tets here at creation
+    Rows<std::uint8_t> on_cut = {}; // [vertex] 1: on a sheet that was torn
 
-    MaterialTet& tet(Index at) { return tets[row(at)]; }
+    MaterialTet& edit_tet(Index at) { return tets.edit(row(at)); }
     const MaterialTet& tet(Index at) const { return tets[row(at)]; }
     Index tet_count() const { return static_cast<Index>(tets.size()); }
     Index vertex_count() const { return static_cast<Index>(rest.size()); }
@@ -47,8 +47,14 @@ struct MaterialMesh {
 /// `star` and marked; marks that are there already are walls.
 void walk_star(const MaterialMesh& mesh, Index vertex, Index seed, Marks& marks, std::vector<Index>& star);
 
-/// The tets around edge (u, w), in the order of a walk around u.
-void find_ring(const MaterialMesh& mesh, Index u, Index w, Marks& marks, std::vector<Index>& ring);
+/// An edge, and a tet around it.
+struct MaterialEdge {
+    Index u = 0, w = 0, tet = 0;
+};
+
+/// The tets around an edge. True if they close around it; else cracks may part them into several fans, and
+/// all of them are found.
+bool find_ring(const MaterialMesh& mesh, const MaterialEdge& edge, Marks& marks, std::vector<Index>& ring);
 
 /// Halves the tets of `ring` at (1 - t) u + t w and returns the new vertex. A halved tet keeps the side of u;
 /// the sides of w are appended in the ring's order.

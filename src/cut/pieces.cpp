@@ -69,7 +69,7 @@ void relabel_pieces(Cutter& cutter) {
     const std::vector<Index> label = label_components(cutter, components);
     assign_ids(components, cache.next_id);
     for (std::size_t c = 0; c < label.size(); ++c) {
-        cache.of_copy[c] = components[row(label[c])].id;
+        cache.of_copy.edit(c) = components[row(label[c])].id;
     }
     cache.pieces.clear();
     for (const Component& component : components) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/vec.hpp"
+#include "cut/rows.hpp"
 #include "mesh/tet.hpp"
 
 namespace resect {
@@ -13,16 +14,16 @@ namespace resect {
 /// (cutting.md C by way of docs/cutting.md). Written by cut/derive only; rows are appended, never moved.
 struct SimulationMesh {
     // Element copies: the connected components of the material of one element.
-    std::vector<Tet> copy_node;        // [copy] rows of the node arrays
-    std::vector<Index> copy_element;   // [copy] row of Body::elements.tets
-    std::vector<double> copy_fraction; // [copy] share of the element's volume that is this copy's material
-    std::vector<double> copy_weight;   // [copy] the solver's share: floored, or the whole (Weights::copy)
+    Rows<Tet> copy_node;        // [copy] rows of the node arrays
+    Rows<Index> copy_element;   // [copy] row of Body::elements.tets
+    Rows<double> copy_fraction; // [copy] share of the element's volume that is this copy's material
+    Rows<double> copy_weight;   // [copy] the solver's share: floored, or the whole (Weights::copy)
 
     // Nodes: classes of (copy, corner) that are joined through material.
-    std::vector<Index> node_reference; // [node] row of Body::elements.nodes
-    std::vector<double> node_mass;     // [node] kg, sum of weight * element mass / 4
-    std::vector<Vec3> node_home; // [node] rest position of the material vertex nearest to the reference node
-    std::vector<std::uint8_t> node_held; // [node] 1: its home lies in a held region
+    Rows<Index> node_reference;   // [node] row of Body::elements.nodes
+    Rows<double> node_mass;       // [node] kg, sum of weight * element mass / 4
+    Rows<Vec3> node_home;         // [node] rest position of the material vertex nearest to the reference node
+    Rows<std::uint8_t> node_held; // [node] 1: its home lies in a held region
 };
 
 /// What an update of S changed, for the owners of other arrays to follow. Rows in the order of their making.

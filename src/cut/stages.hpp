@@ -11,12 +11,30 @@ struct Sweep {
     std::span<const Vec3f> before = {}, after = {}; // displacements, [node]
 };
 
+/// The blade with its snapping distance around it and what it sees beyond its tip, in the blade's frame.
+struct BladeBox {
+    double across = 0, beyond_tip = 0, length = 0; // m
+};
+
+BladeBox make_box(const Cutter& cutter, const Sweep& sweep);
+/// A bit for each side of the box that the point lies beyond.
+std::uint8_t sides_beyond(const BladeBox& box, const Vec3& point);
+
+/// The elements in an order that keeps neighbours close together.
+std::vector<Index> order_by_place(const TetMesh& mesh);
+/// Lists the copies that may meet the blade.
+void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box);
+
+/// Bisects the longest edges of the material around the blade until they are as fine as asked for.
+void refine_near(Cutter& cutter, const Sweep& sweep, const BladeBox& box);
+
 /// Puts vertices that the blade passes closely on its sheet, records crossed edges, queues the tets around
 /// both.
-void detect_crossings(Cutter& cutter, Blade& blade, const Sweep& sweep, CutReport& report);
+void detect_crossings(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box,
+                      CutReport& report);
 
 /// Bisects the crossed edges of every queued tet that they separate.
-void bisect_separated(Cutter& cutter, Blade& blade);
+void bisect_separated(Cutter& cutter, const Blade& blade);
 
 /// Drops the links across the sheet, but not those that would leave crumbs, and splits vertices.
 void tear_sheet(Cutter& cutter, Blade& blade, CutReport& report);
@@ -30,9 +48,23 @@ void part_torn_vertices(Cutter& cutter);
 /// Copies, nodes and weights anew around torn faces.
 void derive_simulation(Cutter& cutter, Delta& delta, CutReport& report);
 
+/// The first fault in words among the rows that the increment changed, or null: what each row can tell of
+/// itself and of its neighbours.
+const char* find_fault(const Cutter& cutter);
+
 /// Queues a tet, and notes it as changed.
 void queue_tet(Cutter& cutter, Index tet);
-void queue_ring(Cutter& cutter, Index u, Index w);
+
+/// The blade whose crossing cuts an edge, or none.
+struct EdgeCut {
+    const Blade* blade = nullptr;
+    Crossing crossing = {};
+};
+
+/// Bisects an edge at (1 - t) u + t w and queues what changed. The tets around it, now in scratch.ring, keep
+/// the side of u; those of w begin at the row that it returns. The sheet of the blade that cuts holds the new
+/// vertex; every other blade keeps its crossing on the half that it lies on.
+Index cut_edge(Cutter& cutter, const MaterialEdge& edge, double t, const EdgeCut& cut);
 
 /// Gives a star of `vertex` its own vertex, with what every blade knows of the old one.
 void detach_star(Cutter& cutter, Index vertex, std::span<const Index> star);

@@ -22,7 +22,7 @@ bool is_flat(const Blade& blade, const Tet& vertex) {
 Vec3 sheet_normal(const Blade& blade, const Tet& vertex, std::size_t face) {
     Vec3 sum = {};
     for (std::size_t k = 0; k < 4; ++k) {
-        if (k != face) { sum += blade.normal[row(vertex[k])]; }
+        if (k != face) { sum += blade.sheet[row(vertex[k])].normal; }
     }
     return sum;
 }
@@ -44,10 +44,13 @@ void tear_face(Cutter& cutter, const Blade& blade, const TetFace& at, CutReport&
     const Index link = material.tet(at.tet).link[at.face];
     const TetFace other = {tet_of(link), face_of(link)};
     const Index side = is_on_positive_side(cutter, blade, at) ? blade.stroke : -blade.stroke;
-    material.tet(at.tet).link[at.face] = -1;
-    material.tet(at.tet).label[at.face] = side;
-    material.tet(other.tet).link[other.face] = -1;
-    material.tet(other.tet).label[other.face] = -side;
+    const auto open = [&](const TetFace& face, Index label) {
+        MaterialTet& tet = material.edit_tet(face.tet);
+        tet.link[face.face] = -1;
+        tet.label[face.face] = label;
+    };
+    open(at, side);
+    open(other, -side);
     scratch.torn.push_back(at);
     scratch.torn.push_back(other);
     report.area += 0.5 * length(face_normal(material, at.tet, at.face));
@@ -114,14 +117,14 @@ void tear_flat_clusters(Cutter& cutter, const Blade& blade, CutReport& report) {
 void part_star(Cutter& cutter, std::span<const Scratch::Seed> seeds) {
     Scratch& scratch = cutter.scratch;
     const Index vertex = seeds.front().vertex;
-    cutter.material.on_cut[row(vertex)] = 1;
+    cutter.material.on_cut.edit(row(vertex)) = 1;
     scratch.walked.clear(cutter.material.tets.size());
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         if (scratch.walked.has(seeds[i].tet)) { continue; }
         scratch.star.clear();
         walk_star(cutter.material, vertex, seeds[i].tet, scratch.walked, scratch.star);
         if (i == 0) {
-            cutter.material.any_tet[row(vertex)] = seeds[i].tet;
+            cutter.material.any_tet.edit(row(vertex)) = seeds[i].tet;
         } else {
             detach_star(cutter, vertex, scratch.star);
         }

@@ -7,6 +7,7 @@
 #include "cut/homes.hpp"
 #include "cut/partition.hpp"
 #include "cut/pieces.hpp"
+#include "cut/weigh.hpp"
 
 // The checks of docs/cutting.md: each says what is broken, or nothing.
 namespace resect {
@@ -154,7 +155,7 @@ std::string check_copies(const Cutter& cutter) {
     }
     for (std::size_t c = 0; c < mesh.copy_node.size(); ++c) {
         const std::size_t e = row(mesh.copy_element[c]);
-        const double floor = count[e] > 1 ? std::min(0.2, 0.5 / count[e]) : 1;
+        const double floor = weight_floor(count[e]);
         if (!(mesh.copy_weight[c] >= (1 - 1e-12) * floor * cutter.element_fill[e])) {
             return fmt::format("copy {} weighs {:.3g}, less than its floor", c, mesh.copy_weight[c]);
         }

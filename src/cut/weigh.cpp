@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cut/weigh.hpp"
 
-#include <algorithm>
-
 namespace resect {
 
 void weigh_element(Cutter& cutter, Index element) {
@@ -15,19 +13,19 @@ void weigh_element(Cutter& cutter, Index element) {
     }
     if (count == 1 || cutter.setup.options.weights == Weights::copy) {
         for (Index c = first; c >= 0; c = cutter.sibling[row(c)]) {
-            mesh.copy_weight[row(c)] = fill;
+            mesh.copy_weight.edit(row(c)) = fill;
         }
         return;
     }
     // Light copies are driven by the heavy ones around them, crushed and inverted: hence the floor.
-    const double floor = std::min(0.2, 0.5 / count);
+    const double floor = weight_floor(count);
     const auto above = [&](Index c) { return std::max(0.0, mesh.copy_fraction[row(c)] / fill - floor); };
     double sum = 0;
     for (Index c = first; c >= 0; c = cutter.sibling[row(c)]) {
         sum += above(c);
     }
     for (Index c = first; c >= 0; c = cutter.sibling[row(c)]) {
-        mesh.copy_weight[row(c)] = fill * (floor + above(c) * (1 - count * floor) / sum);
+        mesh.copy_weight.edit(row(c)) = fill * (floor + above(c) * (1 - count * floor) / sum);
     }
 }
 

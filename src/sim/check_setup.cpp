@@ -112,6 +112,9 @@ Result<void> check_motion(const Setup& setup) {
 
 Result<void> check_numbers(const Setup& setup) {
     if (Result<void> checked = check_gravity(setup.gravity); !checked) { return checked; }
+    if (setup.cut.refine < 0 || setup.cut.refine > 2) {
+        return Error{fmt::format("cut.refine is {}; give 0, 1 or 2", setup.cut.refine)};
+    }
     if (!(setup.damping >= 0 && setup.damping <= 1e6)) {
         return Error{fmt::format("damping is {:g}; give 1/s from 0 to 1e6", setup.damping)};
     }

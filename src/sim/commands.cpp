@@ -56,7 +56,7 @@ Result<void> apply_one(Engine& engine, const LiftBlade& lift) {
 }
 
 bool is_held(const Engine& engine, Index reference) {
-    const std::vector<std::uint8_t>& held = simulation_mesh(*engine.cutter).node_held;
+    const Rows<std::uint8_t>& held = simulation_mesh(*engine.cutter).node_held;
     const std::vector<Index>& nodes = engine.classes[row(reference)];
     return std::all_of(nodes.begin(), nodes.end(), [&](Index node) { return held[row(node)] != 0; });
 }

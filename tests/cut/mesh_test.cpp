@@ -175,18 +175,18 @@ TEST_CASE("deltas alone carry a mirror of the mesh along") {
             CHECK(row(node.node) == mirror.node_mass.size());
             mirror.node_reference.push_back(mirror.node_reference[row(node.source)]);
             mirror.node_mass.push_back(0);
-            mirror.node_home.emplace_back();
+            mirror.node_home.push_back({});
             mirror.node_held.push_back(0);
         }
         for (const auto& [copy, corner, node] : delta.corners) {
-            mirror.copy_node[row(copy)][row(corner)] = node;
+            mirror.copy_node.edit(row(copy))[row(corner)] = node;
         }
         for (const Index copy : delta.weighed) {
-            mirror.copy_weight[row(copy)] = mesh.copy_weight[row(copy)];
+            mirror.copy_weight.edit(row(copy)) = mesh.copy_weight[row(copy)];
         }
         for (const Index node : delta.touched_nodes) {
-            mirror.node_mass[row(node)] = mesh.node_mass[row(node)];
-            mirror.node_home[row(node)] = mesh.node_home[row(node)];
+            mirror.node_mass.edit(row(node)) = mesh.node_mass[row(node)];
+            mirror.node_home.edit(row(node)) = mesh.node_home[row(node)];
         }
     };
     CutReport report;

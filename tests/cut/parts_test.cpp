@@ -47,9 +47,8 @@ TEST_CASE("the origin lies in a triangle or not, and shared sides decide it the 
 TEST_CASE("an edge map keeps what it was given through growth and erasure") {
     EdgeMap<int> map;
     for (int i = 0; i < 500; ++i) {
-        map.insert(i, i + 1 + i % 7, i);
+        map.set(i, i + 1 + i % 7, i);
     }
-    map.insert(7, 3, -1); // is there
     for (int i = 0; i < 500; i += 2) {
         map.erase(i + 1 + i % 7, i);
     }
@@ -63,6 +62,41 @@ TEST_CASE("an edge map keeps what it was given through growth and erasure") {
     CHECK(kept == 250);
     map.clear();
     CHECK(map.find(1, 3) == nullptr);
+}
+
+TEST_CASE("rows and edge maps take back what was changed since they were opened") {
+    Rows<int> rows(std::vector<int>{1, 2, 3});
+    rows.edit(0) = 10;
+    rows.open();
+    rows.edit(1) = 20;
+    rows.edit(1) = 21;
+    rows.push_back(4);
+    rows.edit(3) = 40;
+    std::vector<std::size_t> changed;
+    rows.each_changed([&](std::size_t at) { changed.push_back(at); });
+    CHECK(changed == std::vector<std::size_t>{1, 3});
+    rows.take_back();
+    CHECK(rows == Rows<int>(std::vector<int>{10, 2, 3}));
+
+    EdgeMap<int> map;
+    for (int i = 0; i < 40; ++i) {
+        map.set(i, 100, i);
+    }
+    map.open();
+    for (int i = 0; i < 200; ++i) {
+        map.set(i, 100, -1);
+    }
+    for (int i = 0; i < 20; ++i) {
+        map.erase(i, 100);
+    }
+    map.set(3, 100, 7);
+    map.take_back();
+    CHECK(map.size() == 40);
+    int same = 0;
+    for (int i = 0; i < 40; ++i) {
+        same += map.at(100, i) == i ? 1 : 0;
+    }
+    CHECK(same == 40);
 }
 
 TEST_CASE("a blade's frame stays orthonormal and turns no more than its edge") {
@@ -118,8 +152,8 @@ TEST_CASE("a star that falls into three parts at once becomes three vertices") {
             if (link < 0 || block_of(*cutter, t) == block_of(*cutter, tet_of(link))) { continue; }
             cutter->scratch.torn.push_back({t, k});
             cutter->scratch.torn.push_back({tet_of(link), face_of(link)});
-            cutter->material.tet(t).link[k] = -1;
-            cutter->material.tet(tet_of(link)).link[face_of(link)] = -1;
+            cutter->material.edit_tet(t).link[k] = -1;
+            cutter->material.edit_tet(tet_of(link)).link[face_of(link)] = -1;
         }
     }
     part_torn_vertices(*cutter);
@@ -151,7 +185,7 @@ TEST_CASE("a vertex that is split takes its crossings along") {
     const Index v = tet.vertex[0];
     const Index other = tet.vertex[1];
     const double from_lower = 0.3;
-    blade.pending.insert(v, other, {from_lower, {1, 0, 0}});
+    blade.pending.set(v, other, {.t = from_lower});
     const Index star[] = {0};
     detach_star(*cutter, v, star);
     const Index twin = cutter->material.vertex_count() - 1;
@@ -169,9 +203,9 @@ TEST_CASE("a crossing of another blade moves to the half of the edge that holds 
     const Tet vertex = cutter->material.tet(0).vertex;
     const auto [low, high] = std::minmax(vertex[2], vertex[3]);
     // Blade 0 separates corners 2 and 3 of a tet whose other corners lie on its sheet.
-    blade.sheet[row(vertex[0])] = blade.sheet[row(vertex[1])] = blade.stroke;
-    blade.pending.insert(low, high, {0.5, {1, 0, 0}});
-    cutter->blades[1].pending.insert(low, high, {0.2, {0, 1, 0}});
+    blade.sheet.edit(row(vertex[0])).stroke = blade.sheet.edit(row(vertex[1])).stroke = blade.stroke;
+    blade.pending.set(low, high, {.t = 0.5});
+    cutter->blades[1].pending.set(low, high, {.t = 0.2});
     cutter->scratch.queue.clear();
     cutter->scratch.dirty.clear();
     cutter->scratch.queued.clear(cutter->material.tets.size());
