@@ -11,19 +11,6 @@
 namespace resect {
 namespace {
 
-RestElement rest_element(const TetMesh& mesh, const Tet& tet) {
-    RestElement rest;
-    rest.volume = signed_volume(mesh, tet);
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-        // The normal of the face opposite the corner, of twice its area, points away from the corner.
-        const auto& face = face_corners[corner];
-        const auto at = [&](int k) { return mesh.nodes[row(tet[row(face[k])])]; };
-        const Vec3 normal = cross(at(1) - at(0), at(2) - at(0));
-        rest.gradient[corner] = (-1 / (6 * rest.volume)) * normal;
-    }
-    return rest;
-}
-
 /// Room for one more copy: a neutral lane.
 Index append_lane(Elements& elements) {
     const Index copy = elements.count++;
@@ -48,11 +35,24 @@ void push_front(Elements& elements, Index slot) {
 
 } // namespace
 
+RestElement build_rest_element(const TetMesh& mesh, const Tet& tet) {
+    RestElement rest;
+    rest.volume = signed_volume(mesh, tet);
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+        // The normal of the face opposite the corner, of twice its area, points away from the corner.
+        const auto& face = face_corners[corner];
+        const auto at = [&](int k) { return mesh.nodes[row(tet[row(face[k])])]; };
+        const Vec3 normal = cross(at(1) - at(0), at(2) - at(0));
+        rest.gradient[corner] = (-1 / (6 * rest.volume)) * normal;
+    }
+    return rest;
+}
+
 std::vector<RestElement> build_rest(const TetMesh& mesh) {
     std::vector<RestElement> rest;
     rest.reserve(mesh.tets.size());
     for (const Tet& tet : mesh.tets) {
-        rest.push_back(rest_element(mesh, tet));
+        rest.push_back(build_rest_element(mesh, tet));
     }
     return rest;
 }
@@ -69,9 +69,14 @@ double rest_step_bound(const RestElement& rest, const Material& material) {
 
 void append_copy(Elements& elements, const RestElement& rest, const Material& material,
                  const CopyOptions& options) {
-    const Index copy = append_lane(elements);
+    set_copy(elements, append_lane(elements), rest, material, options);
+}
+
+void set_copy(Elements& elements, Index copy, const RestElement& rest, const Material& material,
+              const CopyOptions& options) {
+    RESECT_ASSERT(0 <= copy && copy < elements.count);
     const Index lane = copy % lanes;
-    ElementBlock& block = elements.blocks.back();
+    ElementBlock& block = elements.blocks[row(copy / lanes)];
     const Moduli m = moduli(material);
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t axis = 0; axis < 3; ++axis) {

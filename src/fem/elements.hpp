@@ -44,6 +44,7 @@ struct RestElement {
     double volume = 0;                 // m^3
 };
 
+RestElement build_rest_element(const TetMesh& mesh, const Tet& tet);
 std::vector<RestElement> build_rest(const TetMesh& mesh);
 
 /// Closed-form lower bound of the critical time step at rest, s: 1 / (c_p sqrt(sum 1 / h_i^2)).
@@ -59,6 +60,9 @@ struct CopyOptions {
 /// Appends a copy with everything precomputed for its element.
 void append_copy(Elements& elements, const RestElement& rest, const Material& material,
                  const CopyOptions& options);
+/// Computes everything of a copy anew, without touching the lists by node.
+void set_copy(Elements& elements, Index copy, const RestElement& rest, const Material& material,
+              const CopyOptions& options);
 /// Appends a copy of a copy: memory is copied, nothing is computed (the paper's method 1).
 void append_copy_of(Elements& elements, Index parent);
 /// `volume` is the rest volume of the whole element.

@@ -349,6 +349,18 @@ void read_tissue(const json& tissue, const Place& place, SceneDescription& descr
     }
 }
 
+CutOptions cut_of(const json& value) {
+    CutOptions cut;
+    cut.weights = value["weights"] == "copy" ? Weights::copy : Weights::fraction;
+    cut.quantities = value["quantities"] == "recompute"       ? Quantities::recompute
+                     : value["quantities"] == "recompute_all" ? Quantities::recompute_all
+                                                              : Quantities::copy;
+    cut.front = value["front"] == "hold" ? Front::hold : Front::soft;
+    cut.refine = value["refine"].get<int>();
+    cut.verify = value["verify"].get<bool>();
+    return cut;
+}
+
 SceneDescription description_of(const json& value, const Place& root) {
     SceneDescription description;
     Scene& scene = description.scene;
@@ -356,8 +368,7 @@ SceneDescription description_of(const json& value, const Place& root) {
     scene.description = value["description"].get<std::string>();
     read_tissue(value["tissue"], root.key("tissue"), description);
     scene.setup.gravity = value["gravity"].get<Vec3>();
-    scene.setup.cut.weights = value["cut"]["weights"] == "copy" ? Weights::copy : Weights::fraction;
-    scene.setup.cut.verify = value["cut"]["verify"].get<bool>();
+    scene.setup.cut = cut_of(value["cut"]);
     scene.setup.time_step = value["time_step"].get<double>();
     scene.setup.allow_unstable_step = value["allow_unstable_step"].get<bool>();
     scene.settle = value["settle"] != false;

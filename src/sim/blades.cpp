@@ -40,16 +40,19 @@ void append_nodes(Engine& engine, std::span<const Delta::NewNode> added) {
     }
 }
 
-/// Follows a change of S in the packed arrays; everything precomputed is copied, nothing computed anew.
-void apply_delta(Engine& engine) {
+/// Follows a change of S in the arrays that the step works on.
+void apply_delta(Engine& engine, CutReport& report) {
     const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
     const Delta& delta = engine.delta;
+    Stopwatch watch;
     append_nodes(engine, delta.nodes);
     for (const Delta::NewCopy& copy : delta.copies) {
-        append_copy_of(engine.elements, copy.parent);
         const float density = engine.copy_density[row(copy.parent)];
         engine.copy_density.push_back(density);
     }
+    report.us.derive += watch.lap();
+    append_quantities(engine, delta.copies);
+    report.us.quantities += watch.lap();
     for (const Delta::Corner& corner : delta.corners) {
         set_corner(engine.elements, corner.copy, corner.corner, corner.node);
     }
@@ -60,6 +63,7 @@ void apply_delta(Engine& engine) {
     }
     relink_corners(engine.elements, delta.touched_nodes, static_cast<Index>(engine.nodes.mass.size()));
     update_conditions(engine, delta.touched_nodes);
+    report.us.derive += watch.lap();
 }
 
 /// Sweeps a blade to `to`. The first sweep since the tissue moved takes that motion in, later ones see it
@@ -71,9 +75,7 @@ void sweep_one(Engine& engine, Index blade, const Edge& to, bool first, CutRepor
     // With plain copies a cut adds energy out of nothing; the accounts of work and motion take it over.
     const bool adds_energy = engine.model.weights == Weights::copy;
     const double elastic = adds_energy ? elastic_energy(engine.elements, engine.nodes.displacement) : 0;
-    Stopwatch watch;
-    apply_delta(engine);
-    report.us.quantities += watch.lap();
+    apply_delta(engine, report);
     if (adds_energy) {
         engine.work.internal += elastic_energy(engine.elements, engine.nodes.displacement) - elastic;
         engine.kinetic = kinetic_energy(engine.nodes);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 #include "mesh/validate.hpp"
 #include "sim/check_setup.hpp"
@@ -23,14 +22,13 @@ Model build_model(Setup& setup) {
     model.region.resize(model.rest.size(), 0);
     model.loads = setup.loads;
     model.weights = setup.cut.weights;
+    model.quantities = setup.cut.quantities;
     const Box box = bounds_of(model.elements);
     model.size = length(box.hi - box.lo);
-    model.rest_bound = std::numeric_limits<double>::infinity();
+    model.rest_bound = least_step_bound(model);
     double volume = 0;
-    for (std::size_t element = 0; element < model.rest.size(); ++element) {
-        const Material& material = model.materials[row(model.region[element])];
-        model.rest_bound = std::min(model.rest_bound, rest_step_bound(model.rest[element], material));
-        volume += model.rest[element].volume;
+    for (const RestElement& rest : model.rest) {
+        volume += rest.volume;
     }
     model.element_size = std::cbrt(volume / static_cast<double>(model.rest.size()));
     for (const Material& material : model.materials) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct Model {
     std::vector<double> viscous_time = {}; // [material] s
     std::vector<std::pair<Index, Vec3>> loads = {};
     Weights weights = Weights::fraction;
+    Quantities quantities = Quantities::copy;
     double rest_bound = 0;   // s
     double size = 0;         // diagonal of the rest box, m
     double element_size = 0; // cube root of the mean element's volume, m
@@ -90,6 +92,13 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup);
 /// Masses, holds and loads of the listed nodes, from S.
 void update_conditions(Engine& engine, std::span<const Index> touched);
 void update_all_conditions(Engine& engine);
+
+// quantities.cpp
+/// The critical time step at rest of the worst element, s.
+double least_step_bound(const Model& model);
+/// The precomputed quantities of copies that a cut added, as Setup::cut.quantities says; their corners are
+/// those of their parents, or of S.
+void append_quantities(Engine& engine, std::span<const Delta::NewCopy> copies);
 
 // step.cpp
 /// Forces of the present state, for node_update and settle.

@@ -104,6 +104,8 @@ json tissue_back(const SceneDescription& scene) {
     return tissue;
 }
 
+constexpr const char* names_of_quantities[] = {"copy", "recompute", "recompute_all"};
+
 /// What was understood, as a scene file again.
 json back(const SceneDescription& description) {
     const Scene& scene = description.scene;
@@ -113,6 +115,9 @@ json back(const SceneDescription& description) {
                    {"gravity", scene.setup.gravity},
                    {"cut",
                     {{"weights", scene.setup.cut.weights == Weights::copy ? "copy" : "fraction"},
+                     {"quantities", names_of_quantities[int(scene.setup.cut.quantities)]},
+                     {"front", scene.setup.cut.front == Front::hold ? "hold" : "soft"},
+                     {"refine", scene.setup.cut.refine},
                      {"verify", scene.setup.cut.verify}}},
                    {"time_step", scene.setup.time_step},
                    {"allow_unstable_step", scene.setup.allow_unstable_step},
