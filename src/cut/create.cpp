@@ -18,6 +18,9 @@ namespace {
 // floating point. Two elements see a shared vertex alike within ten times that.
 constexpr double support_tolerance = 1e-9;
 constexpr double agreement_tolerance = 1e-8;
+/// Material tets of an element from which it is cut along their faces only: cuts that cross it without end
+/// would else fill memory and time.
+constexpr Index crowd_unrefined = 200;
 constexpr std::size_t reserved_tets = 8, reserved_copies = 4; // times the number at creation
 
 using Problem = std::string; // empty: none
@@ -432,6 +435,7 @@ Problem build_cutter(Cutter& cutter) {
     make_nodes(cutter);
     reserve_copies(cutter);
     cutter.pieces.of_copy.grow(cutter.mesh.copy_node.size(), -1);
+    cutter.crowd = crowd_unrefined << cutter.setup.options.refine;
     cutter.near_order = order_by_place(cutter.body.elements);
     cutter.body.material = {};
     cutter.body.element_of = {};

@@ -56,7 +56,7 @@ bool run_stages(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delta, 
     const BladeBox box = make_box(cutter, sweep);
     Stopwatch watch;
     find_near_copies(cutter, blade, sweep, box);
-    refine_near(cutter, sweep, box);
+    refine_near(cutter, blade, sweep, box);
     if (cutter.failing == Stage::refine) { return false; }
     detect_crossings(cutter, blade, sweep, box, report);
     report.us.detect += watch.lap();

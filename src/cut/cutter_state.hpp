@@ -31,6 +31,7 @@ struct Scratch {
     std::vector<std::uint8_t> node_outside = {}; // [node] where classified
     Marks classified = {};                       // nodes
     std::vector<Index> near_copies = {};         // that may meet the blade
+    std::vector<Index> copies_ahead = {};        // within BladeBox::ahead of it
     std::vector<Track> tracks = {};              // [vertex] where tracked
     Marks tracked = {};                          // vertices
     double path_sum = 0;                         // m, of tracked vertices past the blade
@@ -137,8 +138,9 @@ struct Cutter : CutterState {
     double mean_volume = 0;                  // m^3, of an element
     double unit = 1;                         // m, of the integer grid
     double grain = 0;                        // m, the largest of the material
-    std::vector<Index> near_order = {};      // elements, neighbours close together (near.cpp)
-    Stage failing = Stage::none;             // after which an increment is made to fail
+    Index crowd = 0;                    // material tets of an element from which it is cut along faces only
+    std::vector<Index> near_order = {}; // elements, neighbours close together (near.cpp)
+    Stage failing = Stage::none;        // after which an increment is made to fail
 
     SurfaceCache surface = {};
     Scratch scratch = {};

@@ -18,9 +18,8 @@ constexpr double soft_reach = 1.7;
 /// Travel after which marks and crossings expire, in grains: a stroke that comes back to its own cut crosses
 /// it as it would another's.
 constexpr double lifetime = 3;
-/// Material tets of an element above which it is cut along its faces only.
-constexpr Index crowd = 200;
-
+/// How far from the blade material is refined, in grains.
+constexpr double refine_ahead = 0.75;
 double snap_distance(const MaterialMesh& material, Index vertex) {
     return (material.on_cut[row(vertex)] != 0 ? snap_share_on_cut : snap_share) * material.grain[row(vertex)];
 }
@@ -191,8 +190,9 @@ void snap_vertices(Cutter& cutter, Blade& blade, const Sweep& sweep) {
 /// Some of the tets lie in an element whose material has been cut up so much that only its faces shall be
 /// torn from now on.
 bool is_crowded(const Cutter& cutter, std::span<const Index> tets) {
-    return std::any_of(tets.begin(), tets.end(),
-                       [&](Index tet) { return cutter.tet_count[row(cutter.element_of(tet))] >= crowd; });
+    return std::any_of(tets.begin(), tets.end(), [&](Index tet) {
+        return cutter.tet_count[row(cutter.element_of(tet))] >= cutter.crowd;
+    });
 }
 
 /// The first crossing of an edge stays until it expires, but one above the tip takes the place of one beyond
@@ -240,7 +240,8 @@ void note_travel(Cutter& cutter, Blade& blade, const Sweep& sweep) {
 BladeBox make_box(const Cutter& cutter, const Sweep& sweep) {
     const double across = snap_share_on_cut * cutter.grain + 1e-6 * cutter.unit;
     const double beyond_tip = cutter.setup.options.front == Front::soft ? soft_reach * cutter.grain : 0;
-    return {across, beyond_tip, sweep.to.length};
+    const double ahead = cutter.setup.options.refine > 0 ? refine_ahead * cutter.grain : 0;
+    return {across, beyond_tip, sweep.to.length, ahead};
 }
 
 std::uint8_t sides_beyond(const BladeBox& box, const Vec3& p) {

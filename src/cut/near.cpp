@@ -81,6 +81,7 @@ void list_copies(Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index 
             common &= classify_node(cutter, sweep, box, node);
         }
         if (common == 0) { cutter.scratch.near_copies.push_back(c); }
+        if (box.ahead > 0) { cutter.scratch.copies_ahead.push_back(c); }
     }
 }
 
@@ -118,6 +119,7 @@ std::vector<Index> order_by_place(const TetMesh& mesh) {
 void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box) {
     Scratch& scratch = cutter.scratch;
     scratch.near_copies.clear();
+    scratch.copies_ahead.clear();
     scratch.node_outside.resize(cutter.mesh.node_reference.size());
     scratch.classified.clear(cutter.mesh.node_reference.size());
     Approach& approach = blade.approach;
@@ -132,8 +134,8 @@ void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const Bl
         for (std::size_t i = block * block_size; i < std::min(count, (block + 1) * block_size); ++i) {
             if (approach.moved > approach.safe_until[i]) {
                 const double gap = find_gap(cutter, sweep, box, cutter.near_order[i]);
-                const bool is_far = gap > motion; // not, if it is not a number
-                approach.safe_until[i] = approach.moved + (is_far ? gap : 0);
+                const bool is_far = gap > motion + box.ahead; // not, if it is not a number
+                approach.safe_until[i] = approach.moved + (is_far ? gap - box.ahead : 0);
                 if (!is_far) { list_copies(cutter, sweep, box, cutter.near_order[i]); }
             }
             safe_until = std::min(safe_until, approach.safe_until[i]);

@@ -14,6 +14,7 @@ struct Sweep {
 /// The blade with its snapping distance around it and what it sees beyond its tip, in the blade's frame.
 struct BladeBox {
     double across = 0, beyond_tip = 0, length = 0; // m
+    double ahead = 0;                              // m, how far around the blade material is refined
 };
 
 BladeBox make_box(const Cutter& cutter, const Sweep& sweep);
@@ -25,8 +26,9 @@ std::vector<Index> order_by_place(const TetMesh& mesh);
 /// Lists the copies that may meet the blade.
 void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box);
 
-/// Bisects the longest edges of the material around the blade until they are as fine as asked for.
-void refine_near(Cutter& cutter, const Sweep& sweep, const BladeBox& box);
+/// Bisects the longest edges of the material that the blade is about to meet until they are as fine as asked
+/// for.
+void refine_near(Cutter& cutter, const Blade& blade, const Sweep& sweep, const BladeBox& box);
 
 /// Puts vertices that the blade passes closely on its sheet, records crossed edges, queues the tets around
 /// both.
