@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "bench_cut.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "samples.hpp"
@@ -61,37 +62,6 @@ Json bench_step(NamedBody named, int threads) {
             {"real_time_factor", step * best / static_cast<double>(elements)}};
 }
 
-/// A plane through the middle, in one stroke of the tissue held still: microseconds by stage.
-Json bench_cut(NamedBody named) {
-    Box box{named.body.elements.nodes.front(), named.body.elements.nodes.front()};
-    for (const Vec3& node : named.body.elements.nodes) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.lo[axis] = std::min(box.lo[axis], node[axis]);
-            box.hi[axis] = std::max(box.hi[axis], node[axis]);
-        }
-    }
-    const std::size_t elements = named.body.elements.tets.size();
-    Simulation simulation = must(Simulation::create({.body = std::move(named.body), .threads = 1}));
-    const double x = 0.47 * box.lo[0] + 0.53 * box.hi[0], margin = 0.01;
-    const auto edge = [&](double z) {
-        return Edge{{x, box.hi[1] + margin, z}, {x + 0.003, box.lo[1] - margin, z}};
-    };
-    const CutReport cut = must(simulation.cut(edge(box.hi[2] + margin), edge(box.lo[2] - margin)));
-    const auto& us = cut.us;
-    const double total = us.detect + us.bisect + us.tear + us.derive + us.quantities;
-    return {{"mesh", named.name},
-            {"elements", elements},
-            {"elements_cut", cut.elements_cut},
-            {"copies_added", cut.copies_added},
-            {"us",
-             {{"detect", us.detect},
-              {"bisect", us.bisect},
-              {"tear", us.tear},
-              {"derive", us.derive},
-              {"quantities", us.quantities}}},
-            {"us_per_copy", cut.copies_added > 0 ? total / cut.copies_added : 0.0}};
-}
-
 std::vector<NamedBody> bench_bodies() {
     std::vector<NamedBody> bodies;
     bodies.push_back({"block 6k", must(make_block({0.1, 0.1, 0.1}, {10, 10, 10}))});
@@ -128,17 +98,7 @@ int bench(const BenchOptions& options) {
             json["step"].push_back(row);
         }
     }
-    if (wanted("cut")) {
-        for (NamedBody& body : bench_bodies()) {
-            const Json row = bench_cut(std::move(body));
-            if (talk) {
-                fmt::print("cut   {:10} {:6} elements cut, {:6.2f} us a copy\n",
-                           row["mesh"].get<std::string>(), row["elements_cut"].get<int>(),
-                           row["us_per_copy"].get<double>());
-            }
-            json["cut"].push_back(row);
-        }
-    }
+    if (wanted("cut")) { json["cut"] = bench_cut(talk); }
     if (options.json.empty()) { return done; }
     const Result<void> written = write_text(options.json, json.dump(2) + "\n");
     return written ? done : refuse(written.error().message);

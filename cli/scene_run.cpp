@@ -43,10 +43,6 @@ void add(CutReport& sum, const CutReport& part) {
     }
 }
 
-double total(const CutReport& cut) {
-    return cut.us.detect + cut.us.bisect + cut.us.tear + cut.us.derive + cut.us.quantities;
-}
-
 } // namespace
 
 SceneRun::SceneRun(const Scene& scene, Simulation simulation)
@@ -113,9 +109,9 @@ void SceneRun::increment(std::int64_t steps) {
     figures_.wall += wall;
     frame_wall_ += wall;
     add(figures_.cut, report.cut);
-    if (cutting) { figures_.cut_us.add(total(report.cut)); }
+    if (cutting) { figures_.cut_us.add(report.cut.us.total()); }
     if (report.steps > 0) {
-        figures_.step_us.add((1e6 * wall - total(report.cut)) / static_cast<double>(report.steps));
+        figures_.step_us.add((1e6 * wall - report.cut.us.total()) / static_cast<double>(report.steps));
     }
     if (report.status != Status::ok) {
         figures_.status = report.status;

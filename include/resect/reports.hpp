@@ -12,6 +12,13 @@ namespace resect {
 /// Refused: what was asked for cannot be; nothing has been done.
 enum class Status { ok, not_settled, diverged, refused };
 
+/// Microseconds by stage of a cut: find crossings, bisect edges, tear faces, derive copies and nodes, check
+/// what changed, have the precomputed quantities.
+struct CutTimes {
+    double detect = 0, bisect = 0, tear = 0, derive = 0, check = 0, quantities = 0;
+    double total() const { return detect + bisect + tear + derive + check + quantities; }
+};
+
 /// Sums since the advance(), or the cut(), began.
 struct CutReport {
     Index elements_cut = 0; // elements that have more than one copy now and had one before
@@ -21,11 +28,7 @@ struct CutReport {
     double area = 0;   // new sheet, one side, m^2
     std::string reason = {};
     Vec3 where = {}; // of the last refusal
-    /// Microseconds by stage: find crossings, bisect edges, tear faces, derive copies and nodes, check what
-    /// changed, have the precomputed quantities.
-    struct {
-        double detect = 0, bisect = 0, tear = 0, derive = 0, check = 0, quantities = 0;
-    } us = {};
+    CutTimes us = {};
 };
 
 struct StepReport {

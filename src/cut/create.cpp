@@ -6,9 +6,12 @@
 #include <tuple>
 #include <utility>
 
+#include "cut/beside.hpp"
 #include "cut/homes.hpp"
 #include "cut/partition.hpp"
+#include "cut/pieces.hpp"
 #include "cut/stages.hpp"
+#include "cut/transaction.hpp"
 #include "cut/weigh.hpp"
 
 namespace resect {
@@ -21,7 +24,7 @@ constexpr double agreement_tolerance = 1e-8;
 /// Material tets of an element from which it is cut along their faces only: cuts that cross it without end
 /// would else fill memory and time.
 constexpr Index crowd_unrefined = 200;
-constexpr std::size_t reserved_tets = 8, reserved_copies = 4; // times the number at creation
+constexpr std::size_t reserved = 4; // times the rows at creation
 
 using Problem = std::string; // empty: none
 
@@ -101,7 +104,6 @@ void measure_elements(Cutter& cutter) {
 void fill_material(Cutter& cutter) {
     const Body& body = cutter.body;
     MaterialMesh& material = cutter.material;
-    material.tets.reserve(reserved_tets * body.material.tets.size());
     material.rest = body.material.nodes;
     material.support.grow(material.rest.size(), {});
     material.any_tet.grow(material.rest.size(), -1);
@@ -404,20 +406,26 @@ void make_nodes(Cutter& cutter) {
     }
 }
 
-void reserve_copies(Cutter& cutter) {
-    SimulationMesh& mesh = cutter.mesh;
-    const std::size_t copies = reserved_copies * mesh.copy_node.size();
-    const std::size_t nodes = reserved_copies * mesh.node_reference.size();
-    mesh.copy_node.reserve(copies);
-    mesh.copy_element.reserve(copies);
-    mesh.copy_fraction.reserve(copies);
-    mesh.copy_weight.reserve(copies);
-    cutter.first_tet.reserve(copies);
-    cutter.sibling.reserve(copies);
-    mesh.node_reference.reserve(nodes);
-    mesh.node_mass.reserve(nodes);
-    mesh.node_home.reserve(nodes);
-    mesh.node_held.reserve(nodes);
+/// Room for what cuts add, in state and scratch.
+void reserve_rows(Cutter& cutter) {
+    each_rows(cutter, [](auto& rows) { rows.reserve(reserved); });
+    Scratch& scratch = cutter.scratch;
+    const std::size_t tets = reserved * cutter.material.tets.size();
+    const std::size_t vertices = reserved * cutter.material.rest.size();
+    const std::size_t copies = reserved * cutter.mesh.copy_node.size();
+    const std::size_t nodes = reserved * cutter.mesh.node_mass.size();
+    for (Marks* marks : {&scratch.queued, &scratch.walked, &scratch.in_cluster}) {
+        marks->grow(tets);
+    }
+    for (Marks* marks : {&scratch.changed, &scratch.relisted, &scratch.reached}) {
+        marks->grow(copies);
+    }
+    scratch.walked_pairs.grow(4 * copies);
+    scratch.tracked.grow(vertices);
+    scratch.classified.grow(nodes);
+    scratch.tracks.resize(vertices);
+    scratch.node_outside.resize(nodes);
+    scratch.flood_of.resize(copies);
 }
 
 Problem build_cutter(Cutter& cutter) {
@@ -432,11 +440,15 @@ Problem build_cutter(Cutter& cutter) {
     part_pinched_vertices(cutter.material);
     if (Problem problem = make_copies(cutter); !problem.empty()) { return problem; }
     if (Problem problem = weigh_copies(cutter); !problem.empty()) { return problem; }
+    for (std::size_t copy = 0; copy < cutter.mesh.copy_element.size(); ++copy) {
+        cutter.beside.push_back(find_beside(cutter, static_cast<Index>(copy)));
+    }
     make_nodes(cutter);
-    reserve_copies(cutter);
     cutter.pieces.of_copy.grow(cutter.mesh.copy_node.size(), -1);
+    label_pieces(cutter);
     cutter.crowd = crowd_unrefined << cutter.setup.options.refine;
     cutter.near_order = order_by_place(cutter.body.elements);
+    reserve_rows(cutter);
     cutter.body.material = {};
     cutter.body.element_of = {};
     return {};

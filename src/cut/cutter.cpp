@@ -6,6 +6,7 @@
 
 #include "base/assert.hpp"
 #include "base/clock.hpp"
+#include "cut/pieces.hpp"
 #include "cut/stages.hpp"
 #include "cut/transaction.hpp"
 
@@ -68,7 +69,10 @@ bool run_stages(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delta, 
     tear_sheet(cutter, blade, report);
     report.us.tear += watch.lap();
     if (cutter.failing == Stage::tear) { return false; }
-    if (!scratch.torn.empty()) { derive_simulation(cutter, delta, report); }
+    if (!scratch.torn.empty()) {
+        derive_simulation(cutter, delta, report);
+        split_pieces(cutter);
+    }
     report.us.derive += watch.lap();
     return cutter.failing != Stage::derive;
 }
@@ -89,7 +93,7 @@ void run_increment(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delt
     }
     take_back_state(cutter);
     delta.clear();
-    const auto us = report.us;
+    const CutTimes us = report.us;
     report = before;
     report.us = us;
     refuse(report, fmt::format("the blade passed without cutting: {}", objection), sweep.to.tip);
@@ -132,6 +136,7 @@ void place_blade(Cutter& cutter, Index blade, const Edge& pose) {
     placed.travel = 0;
     placed.pending.clear();
     placed.sheet.grow(cutter.material.rest.size(), {});
+    placed.sheet.reserve(2);
     placed.approach = {};
 }
 

@@ -48,11 +48,10 @@ bool has_blade(const Cutter& cutter, Index blade);
 void sweep_blade(Cutter& cutter, Index blade, const Edge& to, std::span<const Vec3f> before,
                  std::span<const Vec3f> after, Delta& delta, CutReport& report);
 
-/// Components of M with stable ids: brought up to date if a cut changed M, else as they were.
-/// Centres are of the displaced material; mass is by `copy_weight`.
+/// Components of M with stable ids, measured: volume at rest, mass by `copy_weight`, centre as displaced.
 std::span<const Piece> update_pieces(Cutter& cutter, std::span<const Vec3f> displacement);
-Index count_pieces(Cutter& cutter);
-std::span<const Index> piece_of_copy(Cutter& cutter);
+Index count_pieces(const Cutter& cutter);
+std::span<const Index> piece_of_copy(const Cutter& cutter);
 
 /// The boundary of M: topology brought up to date if M changed, positions and normals evaluated.
 Surface update_surface(Cutter& cutter, std::span<const Vec3f> displacement, std::uint64_t since_revision);

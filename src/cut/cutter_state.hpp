@@ -65,7 +65,8 @@ struct Scratch {
     std::vector<Index> cluster = {};
 
     // derive
-    std::vector<Index> parted = {}, touched = {}; // copies
+    std::vector<Index> parted = {};  // copies
+    std::vector<Index> touched = {}; // 4 * copy + corner whose class may have changed
     std::vector<Index> elements = {};
     Marks changed = {};      // copies whose fraction or weight changed
     Marks walked_pairs = {}; // copy and corner
@@ -75,13 +76,7 @@ struct Scratch {
     };
     std::vector<Index> part_tets = {};
     std::vector<Part> parts = {};
-    struct Neighbour {
-        Index copy = 0;
-        std::size_t face = 0; // of the element
-    };
-    std::vector<Neighbour> neighbours = {};
-    std::vector<Range> neighbour_range = {}; // [copy] where listed, rows of neighbours
-    Marks listed = {};                       // copies
+    Marks relisted = {}; // copies whose neighbours were found anew
     struct NodeClass {
         Index node = 0; // that its pairs had
         double mass = 0;
@@ -90,6 +85,11 @@ struct Scratch {
     };
     std::vector<Index> pairs = {}; // 4 * copy + corner
     std::vector<NodeClass> classes = {};
+
+    // pieces
+    std::vector<Index> stack = {};
+    Marks reached = {};               // copies
+    std::vector<Index> flood_of = {}; // [copy] where reached
 };
 
 /// The surface as of `revision`, with what its vertices hang on.
@@ -104,26 +104,26 @@ struct SurfaceCache {
     Range dirty = {};
 };
 
-struct PieceCache {
-    std::uint64_t revision = 0;
-    Rows<Index> of_copy = {};       // ids; a new copy starts with its parent's
-    std::vector<Piece> pieces = {}; // by id
-    Index next_id = 0;
+/// Components of the material. Masses and centres are those of the last look.
+struct Pieces {
+    Rows<Index> of_copy = {}; // ids; a new copy starts with its parent's
+    Rows<Piece> pieces = {};  // [id]: a piece that falls apart is its largest part from then on
 };
 
 /// What cuts change, all of it: a snapshot is a copy.
 struct CutterState {
     MaterialMesh material = {};
     SimulationMesh mesh = {};
-    Rows<Index> first_tet = {};  // [copy] head of the list of its tets
-    Rows<Index> sibling = {};    // [copy] next copy of the same element, or -1
-    Rows<Index> first_copy = {}; // [element] head of that list
-    Rows<Index> tet_count = {};  // [element] material tets
+    Rows<Index> first_tet = {};             // [copy] head of the list of its tets
+    Rows<Index> sibling = {};               // [copy] next copy of the same element, or -1
+    Rows<Index> first_copy = {};            // [element] head of that list
+    Rows<Index> tet_count = {};             // [element] material tets
+    Rows<std::array<Index, 4>> beside = {}; // [copy][face of the element], see beside.hpp
 
     std::vector<Blade> blades = {};
     Index strokes = 0;          // begun so far
     std::uint64_t revision = 1; // of the material's topology
-    PieceCache pieces = {};
+    Pieces pieces = {};
 };
 
 /// Stages of an increment, for tests that make one fail.

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/assert.hpp"
+#include "cut/beside.hpp"
 #include "cut/homes.hpp"
 #include "cut/stages.hpp"
 #include "cut/weigh.hpp"
@@ -48,6 +49,7 @@ Index append_copy(Cutter& cutter, Index parent) {
     cutter.first_tet.push_back(-1);
     cutter.sibling.push_back(cutter.sibling[row(parent)]);
     cutter.sibling.edit(row(parent)) = copy;
+    cutter.beside.push_back({});
     cutter.pieces.of_copy.push_back(cutter.pieces.of_copy[row(parent)]);
     return copy;
 }
@@ -74,7 +76,6 @@ bool has_one_copy(const Cutter& cutter, Index element) {
 /// A copy whose material fell apart: the largest part keeps the copy, every other gets a new one.
 void part_copy(Cutter& cutter, Index copy, Delta& delta, CutReport& report) {
     Scratch& scratch = cutter.scratch;
-    scratch.touched.push_back(copy);
     find_parts(cutter, copy);
     if (scratch.parts.size() == 1) { return; }
     const Index element = cutter.mesh.copy_element[row(copy)];
@@ -90,13 +91,12 @@ void part_copy(Cutter& cutter, Index copy, Delta& delta, CutReport& report) {
         }
         const Index twin = append_copy(cutter, copy);
         fill_copy(cutter, twin, *part);
-        scratch.touched.push_back(twin);
         delta.copies.push_back({copy, twin});
         ++report.copies_added;
     }
 }
 
-/// Weighs the copies of every element that has more of them now.
+/// Weighs the copies of every element that has more of them now: all their corners are touched.
 void weigh_elements(Cutter& cutter, Delta& delta) {
     Scratch& scratch = cutter.scratch;
     sort_unique(scratch.elements);
@@ -105,36 +105,58 @@ void weigh_elements(Cutter& cutter, Delta& delta) {
         weigh_element(cutter, element);
         for (Index c = cutter.first_copy[row(element)]; c >= 0; c = cutter.sibling[row(c)]) {
             scratch.changed.set(c);
-            scratch.touched.push_back(c);
             delta.weighed.push_back(c);
+            for (std::size_t corner = 0; corner < 4; ++corner) {
+                scratch.touched.push_back(make_link(c, corner));
+            }
         }
     }
     std::sort(delta.weighed.begin(), delta.weighed.end());
-    sort_unique(scratch.touched);
 }
 
-/// The copies that share material faces with `copy`, by the face of the element between them.
-std::span<const Scratch::Neighbour> list_neighbours(Cutter& cutter, Index copy) {
+/// Corners around which a torn face parts two elements.
+void touch_torn_corners(Cutter& cutter) {
+    for (const TetFace& at : cutter.scratch.torn) {
+        const MaterialTet& tet = cutter.material.tet(at.tet);
+        if (tet.element_face[at.face] < 0) { continue; }
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            const bool is_on_face = corner != std::size_t(tet.element_face[at.face]);
+            if (is_on_face) { cutter.scratch.touched.push_back(make_link(tet.copy, corner)); }
+        }
+    }
+}
+
+void find_beside_anew(Cutter& cutter, Index copy) {
+    if (cutter.scratch.relisted.set(copy)) { cutter.beside.edit(row(copy)) = find_beside(cutter, copy); }
+}
+
+/// Of copies that were parted or torn off at an element's face, and of all that they meet or met.
+void update_beside(Cutter& cutter, const Delta& delta) {
     Scratch& scratch = cutter.scratch;
-    Range& range = scratch.neighbour_range[row(copy)];
-    if (scratch.listed.set(copy)) {
-        range.begin = static_cast<Index>(scratch.neighbours.size());
+    scratch.relisted.clear(cutter.mesh.copy_node.size());
+    const auto with_neighbours = [&](Index copy) {
         for (Index m = cutter.first_tet[row(copy)]; m >= 0; m = cutter.material.tet(m).next) {
             const MaterialTet& tet = cutter.material.tet(m);
             for (std::size_t k = 0; k < 4; ++k) {
                 if (tet.link[k] < 0 || tet.element_face[k] < 0) { continue; }
-                const Index other = cutter.material.tet(tet_of(tet.link[k])).copy;
-                const auto same = [&](const Scratch::Neighbour& n) {
-                    return n.copy == other && n.face == std::size_t(tet.element_face[k]);
-                };
-                if (std::none_of(scratch.neighbours.begin() + range.begin, scratch.neighbours.end(), same)) {
-                    scratch.neighbours.push_back({other, std::size_t(tet.element_face[k])});
-                }
+                find_beside_anew(cutter, cutter.material.tet(tet_of(tet.link[k])).copy);
             }
         }
-        range.end = static_cast<Index>(scratch.neighbours.size());
+        find_beside_anew(cutter, copy);
+    };
+    for (const Delta::NewCopy& added : delta.copies) {
+        with_neighbours(added.parent);
+        with_neighbours(added.copy);
     }
-    return std::span(scratch.neighbours).subspan(row(range.begin), row(range.end - range.begin));
+    for (const TetFace& at : scratch.torn) {
+        const MaterialTet& tet = cutter.material.tet(at.tet);
+        if (tet.element_face[at.face] >= 0) { find_beside_anew(cutter, tet.copy); }
+    }
+}
+
+/// The corner of a tet that is `node`, which it has.
+std::size_t place_of(const Tet& tet, Index node) {
+    return (tet[1] == node ? 1U : 0U) + (tet[2] == node ? 2U : 0U) + (tet[3] == node ? 3U : 0U);
 }
 
 /// The class of a (copy, corner): the pairs that material faces around its reference node join to it.
@@ -151,11 +173,12 @@ void walk_class(Cutter& cutter, Index copy, std::size_t corner) {
         const Index at = scratch.pairs[next] / 4;
         const std::size_t own_corner = face_of(scratch.pairs[next]);
         found.changed = found.changed || scratch.changed.has(at);
-        for (const Scratch::Neighbour& neighbour : list_neighbours(cutter, at)) {
-            if (neighbour.face == own_corner) { continue; }
-            const Index pair =
-                make_link(neighbour.copy, corner_of(cutter.element(neighbour.copy), reference));
-            if (scratch.walked_pairs.set(pair)) { scratch.pairs.push_back(pair); }
+        for (std::size_t face = 0; face < 4; ++face) {
+            if (face == own_corner) { continue; }
+            each_beside(cutter, at, face, [&](Index beside) {
+                const Index pair = make_link(beside, place_of(cutter.element(beside), reference));
+                if (scratch.walked_pairs.set(pair)) { scratch.pairs.push_back(pair); }
+            });
         }
     }
     found.end = static_cast<Index>(scratch.pairs.size());
@@ -168,14 +191,10 @@ void walk_classes(Cutter& cutter) {
     const std::size_t copies = cutter.mesh.copy_node.size();
     scratch.pairs.clear();
     scratch.classes.clear();
-    scratch.neighbours.clear();
-    scratch.neighbour_range.resize(copies);
-    scratch.listed.clear(copies);
     scratch.walked_pairs.clear(4 * copies);
-    for (const Index copy : scratch.touched) {
-        for (std::size_t corner = 0; corner < 4; ++corner) {
-            if (scratch.walked_pairs.set(make_link(copy, corner))) { walk_class(cutter, copy, corner); }
-        }
+    sort_unique(scratch.touched);
+    for (const Index pair : scratch.touched) {
+        if (scratch.walked_pairs.set(pair)) { walk_class(cutter, pair / 4, face_of(pair)); }
     }
 }
 
@@ -239,6 +258,8 @@ void derive_simulation(Cutter& cutter, Delta& delta, CutReport& report) {
         part_copy(cutter, copy, delta, report);
     }
     weigh_elements(cutter, delta);
+    touch_torn_corners(cutter);
+    update_beside(cutter, delta);
     walk_classes(cutter);
     assign_nodes(cutter, delta, report);
 }

@@ -263,7 +263,9 @@ void detect_crossings(Cutter& cutter, Blade& blade, const Sweep& sweep, const Bl
     scratch.path_sum = 0;
     scratch.path_count = 0;
     scratch.tracked.clear(cutter.material.rest.size());
-    scratch.tracks.resize(cutter.material.rest.size());
+    if (scratch.tracks.size() < cutter.material.rest.size()) {
+        scratch.tracks.resize(2 * cutter.material.rest.size());
+    }
     for (const Index copy : scratch.near_copies) {
         for (Index m = cutter.first_tet[row(copy)]; m >= 0; m = cutter.material.tet(m).next) {
             find_tet_crossings(cutter, sweep, box, m, report);

@@ -120,7 +120,9 @@ void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const Bl
     Scratch& scratch = cutter.scratch;
     scratch.near_copies.clear();
     scratch.copies_ahead.clear();
-    scratch.node_outside.resize(cutter.mesh.node_reference.size());
+    if (scratch.node_outside.size() < cutter.mesh.node_reference.size()) {
+        scratch.node_outside.resize(2 * cutter.mesh.node_reference.size());
+    }
     scratch.classified.clear(cutter.mesh.node_reference.size());
     Approach& approach = blade.approach;
     const std::size_t count = cutter.near_order.size();

@@ -5,7 +5,12 @@
 
 namespace resect {
 
-/// Brings ids and volumes up to date with the material's topology.
-void relabel_pieces(Cutter& cutter);
+/// Finds the components of the material of a new cutter.
+void label_pieces(Cutter& cutter);
+
+/// Brings the pieces up to date after an increment: those of the tets in scratch.torn may have fallen apart.
+/// Floods start on all sides of the tears and take turns, so that the work is that of the smaller side, or,
+/// where the tissue still holds, of going around the front.
+void split_pieces(Cutter& cutter);
 
 } // namespace resect

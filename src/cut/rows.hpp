@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/reserve.hpp"
 #include "cut/marks.hpp"
 
 namespace resect {
@@ -42,7 +43,11 @@ public:
         return values_[at];
     }
     void push_back(T value) { values_.push_back(std::move(value)); }
-    void reserve(std::size_t rows) { values_.reserve(rows); }
+    /// Makes room for `times` the present rows.
+    void reserve(std::size_t times) {
+        reserve_ahead(values_, times);
+        noted_.grow(times * values_.size());
+    }
     /// New rows hold `value`.
     void grow(std::size_t rows, const T& value) {
         if (rows > values_.size()) { values_.resize(rows, value); }

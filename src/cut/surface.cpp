@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cut/pieces.hpp"
+#include "cut/cutter_state.hpp"
 
 namespace resect {
 namespace {
@@ -87,7 +87,6 @@ Surface update_surface(Cutter& cutter, std::span<const Vec3f> displacement, std:
     SurfaceCache& surface = cutter.surface;
     if (surface.revision != cutter.revision) {
         surface.revision = cutter.revision;
-        relabel_pieces(cutter);
         collect_triangles(cutter, surface);
         number_vertices(cutter, surface);
         hang_vertices(cutter, surface);

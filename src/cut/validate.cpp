@@ -208,6 +208,35 @@ std::vector<Vec3> scatter_nodes(const Cutter& cutter) {
     return displacement;
 }
 
+/// Copies that links join, one after the other, are of one piece, and no others are.
+std::string check_pieces(const Cutter& cutter) {
+    const MaterialMesh& material = cutter.material;
+    std::vector<std::uint8_t> met(material.tets.size(), 0);
+    std::vector<std::uint8_t> known(cutter.pieces.pieces.size(), 0);
+    std::vector<Index> stack;
+    for (Index seed = 0; seed < material.tet_count(); ++seed) {
+        if (met[row(seed)] != 0) { continue; }
+        const Index piece = cutter.pieces.of_copy[row(material.tet(seed).copy)];
+        if (known[row(piece)] != 0) { return fmt::format("piece {} has fallen apart", piece); }
+        known[row(piece)] = 1;
+        met[row(seed)] = 1;
+        stack.assign(1, seed);
+        while (!stack.empty()) {
+            const MaterialTet& tet = material.tet(stack.back());
+            stack.pop_back();
+            if (cutter.pieces.of_copy[row(tet.copy)] != piece) {
+                return fmt::format("copy {} is noted for another piece than {}", tet.copy, piece);
+            }
+            for (const Index link : tet.link) {
+                if (link < 0 || met[row(tet_of(link))] != 0) { continue; }
+                met[row(tet_of(link))] = 1;
+                stack.push_back(tet_of(link));
+            }
+        }
+    }
+    return {};
+}
+
 std::string check_embedding(const Cutter& cutter) {
     const MaterialMesh& material = cutter.material;
     const std::vector<Vec3> displacement = scatter_nodes(cutter);
@@ -276,7 +305,7 @@ std::string check_boundary(const Cutter& cutter) {
 
 std::string find_broken_invariant(const Cutter& cutter) {
     for (const auto check : {check_conformity, check_volumes, check_stars, check_copies, check_nodes,
-                             check_embedding, check_boundary}) {
+                             check_pieces, check_embedding, check_boundary}) {
         std::string broken = check(cutter);
         if (!broken.empty()) { return broken; }
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/reserve.hpp"
 #include "mesh/validate.hpp"
 #include "sim/check_setup.hpp"
 #include "sim/engine.hpp"
@@ -11,6 +12,7 @@ namespace resect {
 
 namespace {
 
+constexpr std::size_t reserved = 3;  // times the rows at creation
 constexpr Index homes_at_least = 12; // of a region that holds a lattice body
 
 Model build_model(Setup& setup) {
@@ -141,6 +143,24 @@ void build_elements(Engine& engine) {
     link_corners(engine.elements, static_cast<Index>(mesh.node_reference.size()));
 }
 
+/// Room for what cuts add.
+void reserve_rows(Engine& engine) {
+    NodeArrays& nodes = engine.nodes;
+    for (std::vector<Vec3f>* rows :
+         {&nodes.rest, &nodes.displacement, &nodes.velocity, &nodes.next_displacement, &nodes.next_velocity,
+          &nodes.load, &engine.swept}) {
+        reserve_ahead(*rows, reserved);
+    }
+    reserve_ahead(nodes.mass, reserved);
+    reserve_ahead(nodes.inverse_mass, reserved);
+    reserve_ahead(engine.fixed, reserved);
+    reserve_ahead(engine.copy_density, reserved);
+    reserve_ahead(engine.elements.blocks, reserved);
+    reserve_ahead(engine.elements.forces, reserved);
+    reserve_ahead(engine.elements.first_slot, reserved);
+    reserve_ahead(engine.elements.next_slot, reserved);
+}
+
 } // namespace
 
 Result<std::unique_ptr<Engine>> build_engine(Setup setup) {
@@ -177,6 +197,7 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup) {
     }
     build_elements(*engine);
     build_nodes(*engine, setup.initial);
+    reserve_rows(*engine);
     engine->elastic_start = elastic_energy(engine->elements, engine->nodes.displacement);
     engine->kinetic = kinetic_energy(engine->nodes);
     check_strain_now(*engine);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cut/separate.hpp"
+#include "cut/pieces.hpp"
 #include "cut/stages.hpp"
 #include "strokes.hpp"
 
@@ -160,6 +161,7 @@ TEST_CASE("a star that falls into three parts at once becomes three vertices") {
     Delta delta;
     CutReport report;
     derive_simulation(*cutter, delta, report);
+    split_pieces(*cutter);
     CHECK(find_broken_invariant(*cutter) == "");
     CHECK(pieces_of(*cutter).size() == 3);
     std::array<Index, 3> own = {-1, -1, -1};
