@@ -104,7 +104,9 @@ void measure_elements(Cutter& cutter) {
 void fill_material(Cutter& cutter) {
     const Body& body = cutter.body;
     MaterialMesh& material = cutter.material;
-    material.rest = body.material.nodes;
+    for (const Vec3& vertex : body.material.nodes) {
+        material.rest.push_back(vertex);
+    }
     material.support.grow(material.rest.size(), {});
     material.any_tet.grow(material.rest.size(), -1);
     material.on_cut.grow(material.rest.size(), 0);
@@ -129,18 +131,18 @@ void measure_grain(Cutter& cutter) {
     for (const MaterialTet& tet : material.tets) {
         largest[row(tet.copy)] = std::max(largest[row(tet.copy)], tet.volume);
     }
-    std::vector<double> grain_sum(material.rest.size(), 0);
+    material.grain.grow(material.rest.size(), 0);
     std::vector<double> tets(material.rest.size(), 0);
     for (const MaterialTet& tet : material.tets) {
         const double grain = std::cbrt(6 * largest[row(tet.copy)]);
         cutter.grain = std::max(cutter.grain, grain);
         for (const Index v : tet.vertex) {
-            grain_sum[row(v)] += grain;
+            material.grain.edit(row(v)) += grain;
             tets[row(v)] += 1;
         }
     }
     for (std::size_t v = 0; v < tets.size(); ++v) {
-        material.grain.push_back(grain_sum[v] / std::max(1.0, tets[v]));
+        material.grain.edit(v) /= std::max(1.0, tets[v]);
     }
 }
 

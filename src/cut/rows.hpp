@@ -16,7 +16,6 @@ template <class T>
 class Rows {
 public:
     Rows() = default;
-    Rows(std::vector<T> values) : values_(std::move(values)) {} // NOLINT(google-explicit-constructor)
     /// Copies the rows only: a copy is not open.
     Rows(const Rows& other) : values_(other.values_) {}
     Rows(Rows&&) noexcept = default;
