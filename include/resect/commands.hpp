@@ -21,9 +21,11 @@ struct MoveBlade {
     Edge to = {};
 };
 
-/// Takes a blade away and ends its stroke.
+/// Takes a blade away and ends its stroke. If it is to be completed, the blade first goes on in the direction
+/// of its last motion, longer than the body, until it has left the tissue, which is held still meanwhile.
 struct LiftBlade {
     Index blade = 0;
+    bool complete = false;
 };
 
 /// Moves element nodes to given displacements (m) in the next step and holds them there; no displacement:
@@ -37,8 +39,13 @@ struct SetGravity {
     Vec3 gravity = {}; // m/s^2
 };
 
+/// Goes back to where the last stroke that is not undone began: a blade was placed, or cut() called.
+/// Everything is as it was, time included; the record goes on. The last 32 strokes are kept, fewer of very
+/// large bodies.
+struct Undo {};
+
 /// One vocabulary for C++, scenes and records.
-using Command = std::variant<MoveBlade, LiftBlade, Prescribe, SetGravity>;
+using Command = std::variant<MoveBlade, LiftBlade, Prescribe, SetGravity, Undo>;
 
 struct Recorded {
     std::int64_t step = 0;

@@ -46,6 +46,10 @@ Result<void> write_mesh(const std::string& path, const Simulation& simulation);
 /// load_body() takes them from there.
 Result<void> write_body(const std::string& path, const Body& body);
 
+/// The bytes of a snapshot, as a file.
+Result<void> write_snapshot(const std::string& path, const Snapshot& snapshot);
+Result<Snapshot> load_snapshot(const std::string& path);
+
 /// One file of a series in time.
 struct SeriesEntry {
     double time = 0;       // s

@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "resect/commands.hpp"
@@ -13,6 +16,24 @@
 namespace resect {
 
 struct Engine; // model and state
+struct SnapshotState;
+
+/// The whole state of a simulation at one time, its record of commands included: a value, cheap to copy.
+class Snapshot {
+public:
+    Snapshot() = default;
+    bool empty() const { return state_ == nullptr; }
+    /// For files and pickling, of this version on this kind of machine.
+    std::string bytes() const;
+    /// Refuses bytes that were damaged. Bytes that were forged on purpose are not noticed: load what you
+    /// trust.
+    static Result<Snapshot> from_bytes(std::string_view bytes);
+
+private:
+    friend class Simulation;
+    explicit Snapshot(std::shared_ptr<const SnapshotState> state) : state_(std::move(state)) {}
+    std::shared_ptr<const SnapshotState> state_ = {};
+};
 
 /// A body that moves and is cut. Move-only; one thread drives it; views live until its next non-const call.
 class Simulation {
@@ -49,6 +70,11 @@ public:
     Strain strain() const;
     double time() const;        // s
     std::int64_t steps() const; // since creation
+    Snapshot snapshot() const;
+    /// Goes back to a snapshot of this simulation, or of one that was created from the same setup; refused if
+    /// it is of another. The hash is then that of the moment it was taken; strokes before cannot be undone
+    /// any more.
+    Result<void> restore(const Snapshot& snapshot);
     /// Of displacements, velocities, copies, material and step number; the same for any number of threads.
     std::uint64_t hash() const;
 

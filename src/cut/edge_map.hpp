@@ -72,6 +72,12 @@ public:
         close();
     }
 
+    template <class Archive>
+    void archive(Archive& archive) {
+        archive.rows(slots_);
+        archive.value(size_);
+    }
+
 private:
     static constexpr std::uint64_t empty = 0; // edge (0, 0), which cannot be
     struct Slot {

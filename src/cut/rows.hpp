@@ -80,6 +80,11 @@ public:
         }
     }
 
+    template <class Archive>
+    void archive(Archive& archive) {
+        archive.rows(values_);
+    }
+
     bool operator==(const Rows& other) const { return values_ == other.values_; }
 
 private:

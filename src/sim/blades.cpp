@@ -101,8 +101,9 @@ void sweep_finely(Engine& engine, Index blade, const std::array<Edge, 2>& move, 
 void follow(Engine& engine, BladeWay& way, std::int64_t left, CutReport& report) {
     bool first = true;
     const auto sweep_to = [&](const Edge& pose) {
-        sweep_finely(engine, way.blade, {std::exchange(way.at, pose), pose}, std::exchange(first, false),
-                     report);
+        const Edge from = std::exchange(way.at, pose);
+        if (from.heel != pose.heel || from.tip != pose.tip) { way.before = from; }
+        sweep_finely(engine, way.blade, {from, pose}, std::exchange(first, false), report);
     };
     double share = (static_cast<double>(way.poses.size()) - way.begun) / static_cast<double>(left);
     while (!way.poses.empty() && (left == 1 || way.begun + share >= 1)) {
@@ -126,6 +127,19 @@ void sweep_blades(Engine& engine, std::int64_t left, CutReport& report) {
         follow(engine, way, left, report);
     }
     engine.swept = engine.nodes.displacement;
+}
+
+bool cut_through(Engine& engine, const BladeWay& way, CutReport& report) {
+    const Vec3 along = direction(way.at.heel - way.at.tip);
+    const Vec3 moved = (way.at.heel + way.at.tip) - (way.before.heel + way.before.tip);
+    const Vec3 across = moved - dot(moved, along) * along;
+    if (!(length(across) > 1e-9 * engine.model.size)) { return false; }
+    const Vec3 longer = engine.model.size * along;
+    const Vec3 onward = 2 * engine.model.size * direction(across);
+    const Edge from = {way.at.heel + longer, way.at.tip - longer};
+    sweep_one(engine, way.blade, from, true, report);
+    sweep_finely(engine, way.blade, {from, Edge{from.heel + onward, from.tip + onward}}, false, report);
+    return true;
 }
 
 void sweep_still(Engine& engine, Index blade, const Edge& from, const Edge& to, CutReport& report) {

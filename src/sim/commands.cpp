@@ -37,8 +37,9 @@ Result<void> apply_one(Engine& engine, const MoveBlade& move) {
         way->poses.push_back(move.to);
         return {};
     }
+    remember_stroke(engine);
     if (engine.blades.empty()) { engine.swept = engine.nodes.displacement; }
-    engine.blades.insert(way, {.blade = move.blade, .at = move.to});
+    engine.blades.insert(way, {.blade = move.blade, .at = move.to, .before = move.to});
     place_blade(*engine.cutter, move.blade, move.to);
     return {};
 }
@@ -49,6 +50,10 @@ Result<void> apply_one(Engine& engine, const LiftBlade& lift) {
     if (!is_there(engine, way, lift.blade)) {
         return Error{
             fmt::format("blade {}: is not there to be lifted; place it with MoveBlade first", lift.blade)};
+    }
+    if (lift.complete && !cut_through(engine, *way, engine.between)) {
+        return Error{fmt::format("blade {}: has not moved, so there is no cut to complete; move it first",
+                                 lift.blade)};
     }
     engine.blades.erase(way);
     lift_blade(*engine.cutter, lift.blade);
@@ -108,6 +113,11 @@ Result<void> apply_one(Engine& engine, const SetGravity& set) {
     return {};
 }
 
+Result<void> apply_one(Engine& engine, const Undo&) {
+    if (undo_stroke(engine)) { return {}; }
+    return Error{"undo: there is no stroke to undo"};
+}
+
 } // namespace
 
 Result<void> check_edge(const Edge& edge) {
@@ -124,8 +134,9 @@ Result<void> check_edge(const Edge& edge) {
 }
 
 Result<void> apply_command(Engine& engine, const Command& command) {
+    const std::int64_t step = engine.step;
     Result<void> applied = std::visit([&](const auto& one) { return apply_one(engine, one); }, command);
-    if (applied) { engine.record.push_back({engine.step, command}); }
+    if (applied) { engine.record.push_back({step, command}); }
     return applied;
 }
 

@@ -12,6 +12,7 @@
 #include "base/index.hpp"
 #include "base/parallel.hpp"
 #include "cut/cutter.hpp"
+#include "cut/saved_state.hpp"
 #include "fem/elements.hpp"
 #include "fem/step.hpp"
 
@@ -40,6 +41,7 @@ struct Model {
 struct BladeWay {
     Index blade = 0;
     Edge at = {};
+    Edge before = {}; // where it was before it moved last
     std::vector<Edge> poses = {};
     double begun = 0; // share of the way from the pose before to poses.front() that is behind it
 };
@@ -51,23 +53,19 @@ struct Work {
     double settling = 0; // by settle's resets of the velocity
 };
 
-struct Engine {
-    Model model = {};
-    CutterPtr cutter = {};
+/// What steps, commands and cuts change, but for the cutter's part: a snapshot is a copy of both.
+struct EngineState {
     Elements elements = {};
     NodeArrays nodes = {};
     StepConstants constants = {};
-    double time_step = 0; // s
-    Workers workers;
 
     std::map<Index, Vec3> prescribed = {};        // displacement by row of Body::elements.nodes, m
     std::vector<std::vector<Index>> classes = {}; // [row of Body::elements.nodes] its simulation nodes
     std::vector<BladeWay> blades = {};            // in id order
     std::vector<Vec3f> swept = {};                // displacement up to which blades have swept [node]
-    std::vector<Recorded> record = {};
-    std::int64_t step = 0;        // since creation
-    std::int64_t clock_start = 0; // step at which time is zero
-    double carried = 0;           // s asked for and not yet stepped
+    std::int64_t step = 0;                        // since creation
+    std::int64_t clock_start = 0;                 // step at which time is zero
+    double carried = 0;                           // s asked for and not yet stepped
 
     Work work = {};
     double elastic_start = 0; // J
@@ -77,6 +75,22 @@ struct Engine {
 
     std::vector<std::uint8_t> fixed = {}; // [node] 1: held or prescribed
     std::vector<float> copy_density = {}; // [copy] kg/m^3
+};
+
+/// Everything that a simulation can go back to.
+struct SavedEngine {
+    EngineState state = {};
+    std::shared_ptr<const CutterState> cutter = {};
+};
+
+struct Engine : EngineState {
+    Model model = {};
+    CutterPtr cutter = {};
+    double time_step = 0; // s
+    Workers workers;
+    std::vector<Recorded> record = {};
+    std::vector<SavedEngine> strokes = {}; // what the last ones began with
+    CutReport between = {};                // what commands cut since the last advance()
 
     std::vector<StepSums> sums = {};            // scratch of a step [chunk]
     std::vector<StrainCheck> strain_parts = {}; // scratch of a check [chunk]
@@ -116,12 +130,23 @@ Index find_diverged_element(const Engine& engine, std::string& reason);
 /// Sweeps the blades' next poses while the nodes move from where they were swept last to now; `left` counts
 /// the sweeps, this one included, over which the remaining poses are spread.
 void sweep_blades(Engine& engine, std::int64_t left, CutReport& report);
+/// Sweeps a blade on in the direction of its last motion, longer than the body, until it has left the tissue,
+/// which is held still. False: it has not moved.
+bool cut_through(Engine& engine, const BladeWay& way, CutReport& report);
 /// Sweeps one blade through tissue that is held still.
 void sweep_still(Engine& engine, Index blade, const Edge& from, const Edge& to, CutReport& report);
 
 // commands.cpp
 Result<void> check_edge(const Edge& edge);
 Result<void> apply_command(Engine& engine, const Command& command);
+
+// history.cpp
+SavedEngine save_engine(const Engine& engine);
+void restore_engine(Engine& engine, const SavedEngine& saved);
+/// Keeps the present state for Undo; the oldest go when there are many, or much.
+void remember_stroke(Engine& engine);
+/// False: there is no stroke to go back before.
+bool undo_stroke(Engine& engine);
 
 // settle.cpp
 StepReport settle_engine(Engine& engine, double residual, double at_most);

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 #include "base/hash.hpp"
 #include "sim/engine.hpp"
+#include "sim/snapshot.hpp"
 
 namespace resect {
 
@@ -56,6 +58,7 @@ StepReport Simulation::advance(double seconds) {
     }
     // The small excess lets n times a step of 1 / n make n steps, whatever the rounding.
     const std::int64_t steps = static_cast<std::int64_t>(std::floor(asked + 1e-6));
+    report.cut = std::exchange(engine.between, {});
     engine.carried += seconds - static_cast<double>(steps) * engine.time_step;
     const std::int64_t stride =
         std::max<std::int64_t>(1, static_cast<std::int64_t>(sweep_every / engine.time_step));
@@ -91,6 +94,7 @@ Result<CutReport> Simulation::cut(Edge from, Edge to) {
         }
     }
     CutReport report;
+    remember_stroke(*engine_);
     place_blade(*engine_->cutter, blade_of_cut, from);
     sweep_still(*engine_, blade_of_cut, from, to, report);
     lift_blade(*engine_->cutter, blade_of_cut);
@@ -181,6 +185,15 @@ const char* instruction_set() {
 }
 
 std::int64_t Simulation::steps() const { return engine_->step; }
+
+Snapshot Simulation::snapshot() const {
+    return Snapshot(std::make_shared<const SnapshotState>(take_snapshot(*engine_)));
+}
+
+Result<void> Simulation::restore(const Snapshot& snapshot) {
+    if (snapshot.empty()) { return Error{"restore: the snapshot is empty; take one with snapshot() first"}; }
+    return restore_snapshot(*engine_, *snapshot.state_);
+}
 
 std::uint64_t Simulation::hash() const {
     const NodeArrays& nodes = engine_->nodes;

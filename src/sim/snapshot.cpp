@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/snapshot.hpp"
+
+#include <fmt/format.h>
+
+#include "resect/version.hpp"
+
+#include "base/hash.hpp"
+
+namespace resect {
+
+namespace {
+
+/// Of what decides whether a state fits: elements, materials, step, options.
+std::uint64_t hash_model(const Engine& engine) {
+    const Model& model = engine.model;
+    Hash hash;
+    hash.add(std::span<const Vec3>(model.elements.nodes)).add(std::span<const Tet>(model.elements.tets));
+    hash.add(std::span<const Index>(model.region)).add(std::span<const double>(model.viscous_time));
+    for (const Material& material : model.materials) {
+        hash.add(material.young).add(material.poisson).add(material.density);
+    }
+    return hash.add(model.weights).add(engine.time_step).add(engine.constants.damping).value();
+}
+
+template <class Archive>
+void archive_command(Archive& archive, MoveBlade& move) {
+    archive.value(move);
+}
+
+template <class Archive>
+void archive_command(Archive& archive, LiftBlade& lift) {
+    archive.value(lift.blade);
+    archive.value(lift.complete);
+}
+
+template <class Archive>
+void archive_command(Archive& archive, Prescribe& told) {
+    archive.rows(told.nodes);
+    archive.rows(told.displacement);
+}
+
+template <class Archive>
+void archive_command(Archive& archive, SetGravity& set) {
+    archive.value(set);
+}
+
+template <class Archive>
+void archive_command(Archive&, Undo&) {}
+
+template <std::size_t Kind = 0>
+Command make_command(std::uint64_t kind) {
+    if constexpr (Kind == std::variant_size_v<Command>) {
+        return Undo{};
+    } else {
+        return kind == Kind ? Command(std::in_place_index<Kind>) : make_command<Kind + 1>(kind);
+    }
+}
+
+template <class Archive>
+void archive_recorded(Archive& archive, Recorded& recorded) {
+    archive.value(recorded.step);
+    std::uint64_t kind = recorded.command.index();
+    archive.value(kind);
+    if constexpr (Archive::reads) { recorded.command = make_command(kind); }
+    std::visit([&](auto& command) { archive_command(archive, command); }, recorded.command);
+}
+
+template <class Archive>
+void archive_prescribed(Archive& archive, std::map<Index, Vec3>& prescribed) {
+    std::vector<std::pair<Index, Vec3>> told(prescribed.begin(), prescribed.end());
+    archive_each(archive, told, [&](std::pair<Index, Vec3>& one) {
+        archive.value(one.first);
+        archive.value(one.second);
+    });
+    prescribed = {told.begin(), told.end()};
+}
+
+template <class Archive>
+void archive_nodes(Archive& archive, NodeArrays& nodes) {
+    for (std::vector<Vec3f>* rows : {&nodes.rest, &nodes.displacement, &nodes.velocity,
+                                     &nodes.next_displacement, &nodes.next_velocity, &nodes.load}) {
+        archive.rows(*rows);
+    }
+    archive.rows(nodes.mass);
+    archive.rows(nodes.inverse_mass);
+}
+
+template <class Archive>
+void archive_elements(Archive& archive, Elements& elements) {
+    archive.value(elements.count);
+    archive.rows(elements.blocks);
+    archive.rows(elements.forces);
+    archive.rows(elements.first_slot);
+    archive.rows(elements.next_slot);
+}
+
+template <class Archive>
+void archive_state(Archive& archive, EngineState& state) {
+    archive_elements(archive, state.elements);
+    archive_nodes(archive, state.nodes);
+    archive.value(state.constants);
+    archive_prescribed(archive, state.prescribed);
+    archive_each(archive, state.classes, [&](std::vector<Index>& nodes) { archive.rows(nodes); });
+    archive_each(archive, state.blades, [&](BladeWay& way) {
+        archive.value(way.blade);
+        archive.value(way.at);
+        archive.value(way.before);
+        archive.rows(way.poses);
+        archive.value(way.begun);
+    });
+    archive.rows(state.swept);
+    archive.value(state.step);
+    archive.value(state.clock_start);
+    archive.value(state.carried);
+    archive.value(state.work);
+    archive.value(state.elastic_start);
+    archive.value(state.kinetic);
+    archive.value(state.strain);
+    archive.value(state.live_bound);
+    archive.rows(state.fixed);
+    archive.rows(state.copy_density);
+}
+
+template <class Archive>
+void archive_snapshot(Archive& archive, SnapshotState& snapshot) {
+    archive.value(snapshot.model);
+    archive_each(archive, snapshot.record, [&](Recorded& recorded) { archive_recorded(archive, recorded); });
+    archive_state(archive, snapshot.saved.state);
+}
+
+/// What snapshots begin with; sizes tell builds apart that lay memory out differently.
+std::string heading() {
+    return fmt::format("Resect snapshot {} {} {}\n", version, sizeof(ElementBlock), sizeof(EngineState));
+}
+
+std::uint64_t hash_bytes(std::string_view bytes) { return Hash().add(std::span<const char>(bytes)).value(); }
+
+} // namespace
+
+SnapshotState take_snapshot(const Engine& engine) {
+    return {hash_model(engine), save_engine(engine), engine.record};
+}
+
+Result<void> restore_snapshot(Engine& engine, const SnapshotState& snapshot) {
+    if (snapshot.model != hash_model(engine)) {
+        return Error{
+            "restore: the snapshot is of another body, material or step; create the simulation from the "
+            "setup that it was taken from"};
+    }
+    restore_engine(engine, snapshot.saved);
+    engine.record = snapshot.record;
+    engine.strokes.clear();
+    engine.between = {};
+    return {};
+}
+
+std::string Snapshot::bytes() const {
+    ByteWriter writer;
+    if (!empty()) {
+        SnapshotState copy = *state_;
+        archive_snapshot(writer, copy);
+        write_state(writer, *state_->saved.cutter);
+    }
+    const std::string content = writer.take();
+    const std::uint64_t hash = hash_bytes(content);
+    std::string all = heading();
+    all.append(reinterpret_cast<const char*>(&hash), sizeof(hash));
+    return all + content;
+}
+
+Result<Snapshot> Snapshot::from_bytes(std::string_view bytes) {
+    const std::string expected = heading();
+    if (!bytes.starts_with("Resect snapshot")) { return Error{"not a snapshot: it does not begin as one"}; }
+    if (!bytes.starts_with(expected)) {
+        return Error{fmt::format("a snapshot of another version than {}: take it anew", version)};
+    }
+    bytes.remove_prefix(expected.size());
+    std::uint64_t hash = 0;
+    if (bytes.size() < sizeof(hash)) { return Error{"a snapshot that was cut off: take it anew"}; }
+    std::memcpy(&hash, bytes.data(), sizeof(hash));
+    bytes.remove_prefix(sizeof(hash));
+    if (hash != hash_bytes(bytes)) { return Error{"a snapshot that was damaged or cut off: take it anew"}; }
+    if (bytes.empty()) { return Snapshot(); }
+    auto state = std::make_shared<SnapshotState>();
+    ByteReader reader(bytes);
+    archive_snapshot(reader, *state);
+    state->saved.cutter = read_state(reader);
+    if (reader.failed()) { return Error{"a snapshot of another build: take it anew"}; }
+    return Snapshot(std::move(state));
+}
+
+} // namespace resect

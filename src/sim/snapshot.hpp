@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "sim/engine.hpp"
+
+namespace resect {
+
+struct SnapshotState {
+    std::uint64_t model = 0; // hash of what it belongs to
+    SavedEngine saved = {};
+    std::vector<Recorded> record = {};
+};
+
+SnapshotState take_snapshot(const Engine& engine);
+Result<void> restore_snapshot(Engine& engine, const SnapshotState& snapshot);
+
+} // namespace resect
