@@ -427,6 +427,8 @@ void reserve_rows(Cutter& cutter) {
     scratch.classified.grow(nodes);
     scratch.tracks.resize(vertices);
     scratch.node_outside.resize(nodes);
+    scratch.place.resize(nodes);
+    scratch.placed.grow(nodes);
     scratch.flood_of.resize(copies);
 }
 

@@ -28,6 +28,8 @@ struct TetFace {
 /// What one increment works with; kept only so that nothing is allocated again.
 struct Scratch {
     // detect
+    std::vector<Vec3> place = {};                // [node] where placed, in the blade's frame
+    Marks placed = {};                           // nodes
     std::vector<std::uint8_t> node_outside = {}; // [node] where classified
     Marks classified = {};                       // nodes
     std::vector<Index> near_copies = {};         // that may meet the blade

@@ -45,7 +45,7 @@ const Track& track_vertex(Cutter& cutter, const Sweep& sweep, const BladeBox& bo
     if (!scratch.tracked.set(vertex)) { return track; }
     const Vec3 before = to_frame(sweep.from, displaced_position(cutter, vertex, sweep.before));
     const Vec3 after = to_frame(sweep.to, displaced_position(cutter, vertex, sweep.after));
-    scratch.path_sum += std::hypot(after[0] - before[0], after[1] - before[1]);
+    scratch.path_sum += length(Vec3{after[0] - before[0], after[1] - before[1], 0});
     ++scratch.path_count;
     const double scale = 1 / cutter.unit;
     track.outside = sides_beyond(box, before) & sides_beyond(box, after);
@@ -125,7 +125,10 @@ void find_tet_crossings(Cutter& cutter, const Sweep& sweep, const BladeBox& box,
     }
     for (const auto& corners : edge_corners) {
         const auto [u, w] = std::minmax(vertex[row(corners[0])], vertex[row(corners[1])]);
-        const Hit hit = find_edge_hit(scratch.tracks[row(u)], scratch.tracks[row(w)]);
+        const Track& of_u = scratch.tracks[row(u)];
+        const Track& of_w = scratch.tracks[row(w)];
+        if ((of_u.outside & of_w.outside) != 0) { continue; }
+        const Hit hit = find_edge_hit(of_u, of_w);
         if (hit.hit && hit.height >= -box.beyond_tip && hit.height <= sweep.to.length) {
             scratch.events.push_back({{u, w, tet}, hit.t, hit.height});
         }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cut/beside.hpp"
 #include "cut/stages.hpp"
 #include "cut/weigh.hpp"
 
@@ -24,33 +25,23 @@ Fault check_tet_volume(const Cutter& cutter, const MaterialTet& tet) {
     return nullptr;
 }
 
-/// Two copies move a vertex by the same nodes.
-bool hangs_alike(const Cutter& cutter, Index vertex, Index a, Index b) {
-    for (const Index reference : cutter.material.support[row(vertex)].node) {
-        if (reference < 0) { continue; }
-        const std::size_t at_a = corner_of(cutter.element(a), reference);
-        const std::size_t at_b = corner_of(cutter.element(b), reference);
-        if (at_a == 4 || at_b == 4) { return false; }
-        if (cutter.mesh.copy_node[row(a)][at_a] != cutter.mesh.copy_node[row(b)][at_b]) { return false; }
+/// Differs between faces of different vertices, but for rare chances.
+std::int64_t sum_of_face(const MaterialTet& tet, std::size_t face) {
+    std::int64_t sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (k != face) { sum += tet.vertex[k]; }
     }
-    return true;
+    return sum;
 }
 
-/// Linked tets know of each other, share three corners, and where an element's face parts them they share its
-/// nodes there: so nothing tears where nothing was cut.
+/// Linked tets know of each other and share three corners.
 Fault check_link(const Cutter& cutter, Index t, std::size_t k) {
     const MaterialTet& tet = cutter.material.tet(t);
     const Index link = tet.link[k];
     const MaterialTet& other = cutter.material.tet(tet_of(link));
     if (other.link[face_of(link)] != make_link(t, k)) { return "tets would be linked one way only"; }
-    for (std::size_t j = 0; j < 4; ++j) {
-        if (j == k) { continue; }
-        const Index v = tet.vertex[j];
-        if (corner_of(other.vertex, v) == 4) { return "linked tets would share no face"; }
-        if (other.copy == tet.copy) { continue; }
-        if (!hangs_alike(cutter, v, tet.copy, other.copy)) {
-            return "the surface would tear apart where nothing was cut";
-        }
+    if (sum_of_face(tet, k) != sum_of_face(other, face_of(link))) {
+        return "linked tets would share no face";
     }
     return nullptr;
 }
@@ -98,12 +89,27 @@ Fault check_node(const Cutter& cutter, Index node) {
     return mass > 0 && std::isfinite(mass) ? nullptr : "a node would have no mass";
 }
 
+/// Copies that meet at an element's face share its nodes: so nothing tears where nothing was cut.
+bool shares_nodes(const Cutter& cutter, Index copy, std::size_t face) {
+    const Tet& nodes = cutter.mesh.copy_node[row(copy)];
+    bool shares = true;
+    each_beside(cutter, copy, face, [&](Index other) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (k == face) { continue; }
+            const std::size_t place = corner_of(cutter.element(other), cutter.element(copy)[k]);
+            shares = shares && place < 4 && cutter.mesh.copy_node[row(other)][place] == nodes[k];
+        }
+    });
+    return shares;
+}
+
 Fault check_copy(const Cutter& cutter, Index copy) {
     const Tet& nodes = cutter.mesh.copy_node[row(copy)];
     for (std::size_t k = 0; k < 4; ++k) {
         if (cutter.mesh.node_reference[row(nodes[k])] != cutter.element(copy)[k]) {
             return "a copy would hang on a node of another place";
         }
+        if (!shares_nodes(cutter, copy, k)) { return "the surface would tear apart where nothing was cut"; }
     }
     return nullptr;
 }

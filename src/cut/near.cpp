@@ -35,18 +35,28 @@ double motion_of(const Sweep& sweep, const BladeBox& box) {
     return std::max(length(to.heel - from.heel), length(to.tip - from.tip)) + farthest_motion(sweep);
 }
 
+/// Where a node is at the sweep's end, in the blade's frame.
+const Vec3& place_node(Cutter& cutter, const Sweep& sweep, Index node) {
+    Scratch& scratch = cutter.scratch;
+    if (scratch.placed.set(node)) {
+        const Vec3& rest = cutter.body.elements.nodes[row(cutter.mesh.node_reference[row(node)])];
+        scratch.place[row(node)] = to_frame(sweep.to, rest + to_double(sweep.after[row(node)]));
+    }
+    return scratch.place[row(node)];
+}
+
 /// How far the copies of an element are from the blade at the sweep's end, at least; 0 if they may meet it.
-double find_gap(const Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index element) {
+double find_gap(Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index element) {
     const double across = std::sqrt(2.0) * box.across; // the frame may turn about the blade
     const Vec3 lo = {-across, -across, -box.beyond_tip - across};
     const Vec3 hi = {across, across, box.length + across};
     double gap = std::numeric_limits<double>::infinity();
     for (Index c = cutter.first_copy[row(element)]; c >= 0; c = cutter.sibling[row(c)]) {
-        Vec3 low = {1e300, 1e300, 1e300};
-        Vec3 high = {-1e300, -1e300, -1e300};
-        for (const Index node : cutter.mesh.copy_node[row(c)]) {
-            const Vec3& rest = cutter.body.elements.nodes[row(cutter.mesh.node_reference[row(node)])];
-            const Vec3 p = to_frame(sweep.to, rest + to_double(sweep.after[row(node)]));
+        const Tet& nodes = cutter.mesh.copy_node[row(c)];
+        Vec3 low = place_node(cutter, sweep, nodes[0]);
+        Vec3 high = low;
+        for (std::size_t k = 1; k < 4; ++k) {
+            const Vec3& p = place_node(cutter, sweep, nodes[k]);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 low[axis] = std::min(low[axis], p[axis]);
                 high[axis] = std::max(high[axis], p[axis]);
@@ -66,8 +76,8 @@ unsigned classify_node(Cutter& cutter, const Sweep& sweep, const BladeBox& box, 
     if (scratch.classified.set(node)) {
         const Vec3& rest = cutter.body.elements.nodes[row(cutter.mesh.node_reference[row(node)])];
         const Vec3 before = to_frame(sweep.from, rest + to_double(sweep.before[row(node)]));
-        const Vec3 after = to_frame(sweep.to, rest + to_double(sweep.after[row(node)]));
-        scratch.node_outside[row(node)] = sides_beyond(box, before) & sides_beyond(box, after);
+        scratch.node_outside[row(node)] =
+            sides_beyond(box, before) & sides_beyond(box, place_node(cutter, sweep, node));
     }
     return scratch.node_outside[row(node)];
 }
@@ -122,7 +132,9 @@ void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const Bl
     scratch.copies_ahead.clear();
     if (scratch.node_outside.size() < cutter.mesh.node_reference.size()) {
         scratch.node_outside.resize(2 * cutter.mesh.node_reference.size());
+        scratch.place.resize(2 * cutter.mesh.node_reference.size());
     }
+    scratch.placed.clear(cutter.mesh.node_reference.size());
     scratch.classified.clear(cutter.mesh.node_reference.size());
     Approach& approach = blade.approach;
     const std::size_t count = cutter.near_order.size();
