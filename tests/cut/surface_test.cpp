@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cut/range_history.hpp"
+#include "cut/saved_state.hpp"
 #include "strokes.hpp"
 
 namespace resect {
@@ -206,6 +207,28 @@ TEST_CASE("mirrors that copy only dirty ranges stay equal to the surface") {
     CHECK(every.revision > 70); // more than the history keeps
     late.follow(*cutter);
     CHECK(every.copied < every.shown / 10);
+}
+
+TEST_CASE("a mirror follows a state that is restored, and what is cut after it") {
+    std::mt19937 random(61);
+    const CutterPtr cutter = cutter_of(make_cube(4, 0.2, 7));
+    Mirror mirror;
+    stroke(*cutter, draw_stroke(random), 15);
+    mirror.follow(*cutter);
+    const std::vector<std::array<Index, 3>> before = mirror.triangle;
+    const std::shared_ptr<const CutterState> saved = save_state(*cutter);
+    stroke(*cutter, draw_stroke(random), 15);
+    mirror.follow(*cutter);
+    CHECK(mirror.triangle.size() > before.size());
+    restore_state(*cutter, *saved);
+    mirror.follow(*cutter);
+    CHECK(mirror.triangle.size() == before.size());
+    stroke(*cutter, draw_stroke(random), 15);
+    mirror.follow(*cutter);
+    const std::vector<Vec3f> u = scatter(random, *cutter, 0.5);
+    const Surface surface = update_surface(*cutter, u, 0);
+    CHECK(collect_shown(surface) == collect_boundary(*cutter));
+    CHECK(find_error(*cutter, surface, u) < 1e-6);
 }
 
 /// Pairs of torn faces that were one.
