@@ -204,6 +204,8 @@ TEST_CASE("mirrors that copy only dirty ranges stay equal to the surface") {
     }
     CHECK(increments == 200);
     CHECK(count_pieces(*cutter) > 1);
+    const std::vector<Vec3f> none(cutter->mesh.node_reference.size());
+    CHECK(collect_shown(update_surface(*cutter, none, 0)) == collect_boundary(*cutter));
     CHECK(every.revision > 70); // more than the history keeps
     late.follow(*cutter);
     CHECK(every.copied < every.shown / 10);
