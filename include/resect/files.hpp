@@ -35,7 +35,10 @@ struct Scene {
 /// ("tissue.damping=1"); a value is JSON, or else a string. Paths in it are relative to its folder.
 Result<Scene> load_scene(const std::string& path, std::span<const std::string> overrides = {});
 
-/// The boundary of the material by the ending of `path`: .obj, .stl, .ply, .vtp.
+/// The boundary of the material by the ending of `path`: .obj, .stl, .ply, .vtp. All but .stl hold one point
+/// for each of Surface::point, so that they are closed. Normals are those of corners in .obj (`f v//vn`) and
+/// .vtp (cell array `corner_normals`), of facets in .stl, and of points in .ply, as long as no cut gives a
+/// point two.
 Result<void> write_surface(const std::string& path, const Surface& surface);
 /// The same at rest.
 Result<void> write_rest_surface(const std::string& path, const Surface& surface);

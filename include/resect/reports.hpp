@@ -71,15 +71,30 @@ struct Range {
     Index begin = 0, end = 0;
 };
 
-/// The boundary of the material, closed and oriented outwards. Edges may carry four triangles where a crack
-/// pinches.
+/// The boundary of the material, closed and oriented outwards by its points. Edges may carry four triangles
+/// where a crack pinches.
+///
+/// A point, a vertex of the material, has one vertex here for each value of `face` around it: normals, which
+/// are means by area, are smooth over the outer surface and over each side of a sheet, and break at the lips.
+/// Vertices of one point have the same position, bit for bit, in any deformation.
+///
+/// `rest` is where the material was at the start, m, and so the coordinates of a solid texture on outer and
+/// cut faces alike: the same on the two sides of a sheet, and changed by no deformation and no later cut.
+///
+/// A cut rewrites only what it changed. Triangles and vertices keep their rows while they last; rows that
+/// fall free take new ones or the last.
 struct Surface {
     std::span<const Vec3f> position = {}, normal = {}, rest = {}; // [vertex]
+    std::span<const Index> point = {};                            // [vertex] row of material().material.nodes
     std::span<const std::array<Index, 3>> triangle = {};          // rows of position
     std::span<const Index> face = {};  // [triangle] 0 outer, +-k the sides of stroke k
     std::span<const Index> piece = {}; // [triangle] Piece::id
-    std::span<const Range> dirty = {}; // triangles changed since the revision asked for
-    std::uint64_t revision = 0;        // of the topology
+    // What changed since the revision asked for: few ranges, that may cover more. All of it where that
+    // revision is more than 64 updates ago. The arrays may have grown or shrunk, too.
+    std::span<const Range> dirty = {};          // of triangle, face, piece
+    std::span<const Range> dirty_vertices = {}; // of rest, point
+    std::uint64_t revision = 0;                 // of the topology
+    double update_us = 0; // microseconds that this call spent on following cuts; 0: there were none
 };
 
 /// Simulation nodes.

@@ -87,6 +87,7 @@ void run_increment(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delt
     if (objection.empty() && !cutter.scratch.dirty.empty()) { objection = find_objection(cutter); }
     report.us.check += watch.lap();
     if (objection.empty()) {
+        note_surface_changes(cutter);
         close_state(cutter);
         if (cutter.scratch.bisections > 0 || !cutter.scratch.torn.empty()) { ++cutter.revision; }
         return;

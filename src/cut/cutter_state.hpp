@@ -8,6 +8,7 @@
 #include "cut/marks.hpp"
 #include "cut/material_mesh.hpp"
 #include "cut/predicate.hpp"
+#include "cut/surface.hpp"
 
 namespace resect {
 
@@ -92,18 +93,6 @@ struct Scratch {
     std::vector<Index> stack = {};
     Marks reached = {};               // copies
     std::vector<Index> flood_of = {}; // [copy] where reached
-};
-
-/// The surface as of `revision`, with what its vertices hang on.
-struct SurfaceCache {
-    std::uint64_t revision = 0;
-    std::vector<Index> vertex = {}; // of the material
-    std::vector<std::array<Index, 4>> node = {};
-    std::vector<std::array<float, 4>> weight = {};
-    std::vector<Vec3f> rest = {}, position = {}, normal = {};
-    std::vector<std::array<Index, 3>> triangle = {};
-    std::vector<Index> face = {}, copy = {}, piece = {};
-    Range dirty = {};
 };
 
 /// Components of the material. Masses and centres are those of the last look.

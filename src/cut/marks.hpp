@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/index.hpp"
@@ -35,7 +36,27 @@ public:
 
 private:
     std::vector<std::uint32_t> stamps_ = {};
-    std::uint32_t stamp_ = 0;
+    std::uint32_t stamp_ = 1;
+};
+
+/// Rows in the order in which they were added, each once.
+class RowSet {
+public:
+    void add(Index at) {
+        marks_.grow(row(at) + 1);
+        if (marks_.set(at)) { rows_.push_back(at); }
+    }
+
+    void clear() {
+        marks_.clear(0);
+        rows_.clear();
+    }
+
+    std::span<const Index> rows() const { return rows_; }
+
+private:
+    Marks marks_ = {};
+    std::vector<Index> rows_ = {};
 };
 
 } // namespace resect

@@ -39,6 +39,7 @@ void restore_state(Cutter& cutter, const CutterState& saved) {
     const std::uint64_t revision = std::max(cutter.revision, saved.revision) + 1; // nobody has seen this one
     static_cast<CutterState&>(cutter) = saved;
     cutter.revision = revision;
+    cutter.surface = {};
 }
 
 std::size_t bytes_of(const CutterState& saved) {

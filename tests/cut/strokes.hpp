@@ -106,6 +106,41 @@ inline Poses plane_poses(const Vec3& n, const Vec3& p, const Vec3& heading) {
     };
 }
 
+inline double draw(std::mt19937& random, double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+inline Vec3 draw_vector(std::mt19937& random, double low, double high) {
+    const double x = draw(random, low, high);
+    const double y = draw(random, low, high);
+    return {x, y, draw(random, low, high)};
+}
+
+/// Tissue that waves while it is cut.
+inline Motion3 draw_waves(std::mt19937& random, double least, double most) {
+    const double size = draw(random, least, most);
+    const double pace = draw(random, 2, 9);
+    const double phase = draw(random, 0, 6);
+    return [=](Vec3 p, double t) {
+        return p + size * Vec3{std::sin(3 * p[1] + pace * t + phase), std::sin(4 * p[2] + pace * t),
+                               std::cos(3 * p[0] - pace * t + phase)};
+    };
+}
+
+inline Edge around(const Vec3& centre, const Vec3& along, double reach) {
+    return {centre + reach * direction(along), centre - reach * direction(along)};
+}
+
+/// A blade of finite length that turns while it crosses the unit cube, or a part of it.
+inline Poses draw_stroke(std::mt19937& random) {
+    const Vec3 from = draw_vector(random, -0.3, 1.3);
+    const Vec3 to = draw_vector(random, -0.3, 1.3);
+    const Vec3 along = direction(draw_vector(random, -1, 1));
+    const Vec3 turn = draw_vector(random, -0.4, 0.4);
+    const double reach = draw(random, 0.05, 0.75);
+    return [=](double t) { return around(from + t * (to - from), along + t * turn, reach); };
+}
+
 inline std::vector<Piece> pieces_of(Cutter& cutter) {
     const std::vector<Vec3f> rest(cutter.mesh.node_reference.size());
     const auto pieces = update_pieces(cutter, rest);

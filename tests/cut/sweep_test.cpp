@@ -4,31 +4,6 @@
 namespace resect {
 namespace {
 
-double draw(std::mt19937& random, double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-Vec3 draw_vector(std::mt19937& random, double low, double high) {
-    const double x = draw(random, low, high);
-    const double y = draw(random, low, high);
-    return {x, y, draw(random, low, high)};
-}
-
-/// Tissue that waves while it is cut.
-Motion3 draw_waves(std::mt19937& random, double least, double most) {
-    const double size = draw(random, least, most);
-    const double pace = draw(random, 2, 9);
-    const double phase = draw(random, 0, 6);
-    return [=](Vec3 p, double t) {
-        return p + size * Vec3{std::sin(3 * p[1] + pace * t + phase), std::sin(4 * p[2] + pace * t),
-                               std::cos(3 * p[0] - pace * t + phase)};
-    };
-}
-
-Edge around(const Vec3& centre, const Vec3& along, double reach) {
-    return {centre + reach * direction(along), centre - reach * direction(along)};
-}
-
 TEST_CASE("a curved sweep of a turning blade through waving tissue leaves two pieces") {
     std::mt19937 random(1234);
     for (int trial = 0; trial < 60; ++trial) {
@@ -112,14 +87,7 @@ TEST_CASE("a hundred random strokes through waving tissue break no invariant") {
         const CutterPtr cutter = cutter_of(make_cube(3 + body % 3, 0.2, unsigned(body)));
         const Motion3 waves = draw_waves(random, 0, 0.08);
         for (int s = 0; s < 10; ++s) {
-            const Vec3 from = draw_vector(random, -0.3, 1.3);
-            const Vec3 to = draw_vector(random, -0.3, 1.3);
-            const Vec3 along = direction(draw_vector(random, -1, 1));
-            const Vec3 turn = draw_vector(random, -0.4, 0.4);
-            const double reach = draw(random, 0.05, 0.75);
-            stroke(
-                *cutter, [&](double t) { return around(from + t * (to - from), along + t * turn, reach); },
-                15, waves);
+            stroke(*cutter, draw_stroke(random), 15, waves);
             CAPTURE(body);
             CAPTURE(s);
             REQUIRE(find_broken_invariant(*cutter) == "");

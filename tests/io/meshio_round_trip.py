@@ -43,6 +43,52 @@ def vtp_arrays(path):
     return arrays, root.find(".//Piece")
 
 
+def obj_corners(path):
+    """Positions, normals and the numbers of both at each corner (meshio takes as many normals as points only)."""
+    rows = {"v": [], "vn": [], "f": []}
+    for line in open(path):
+        word, *rest = line.split()
+        rows[word].append(rest)
+    corners = np.array([[corner.split("//") for corner in face] for face in rows["f"]], dtype="i4") - 1
+    return np.array(rows["v"], "f4"), np.array(rows["vn"], "f4"), corners[:, :, 0], corners[:, :, 1]
+
+
+def check_surfaces(folder, array, read):
+    position, normal = array("surface.position", "f4", 3), array("surface.normal", "f4", 3)
+    triangles, point = array("surface.triangle", "i4", 3), array("surface.point", "i4")
+    vertex = np.sort(np.unique(point, return_index=True)[1])  # the first of each point, in their order
+    number = {at: i for i, at in enumerate(point[vertex])}
+    welded = np.array([number[at] for at in point], "i4")[triangles]
+
+    points, normals, corner_points, corner_normals = obj_corners(os.path.join(folder, "surface.obj"))
+    same("obj positions", points, position[vertex])
+    same("obj normals", normals, normal)
+    same("obj triangles", corner_points, welded)
+    same("obj normals of corners", corner_normals, triangles)
+    same("ply positions", read("surface.ply").points, position[vertex])
+    same("ply triangles", read("surface.ply").cells[0].data, welded)
+    same("rest obj", read("surface_rest.obj").points, array("surface.rest", "f4", 3)[vertex])
+    same("rest obj triangles", read("surface_rest.obj").cells[0].data, welded)
+    stl = read("surface.stl")
+    same("stl corners", stl.points[stl.cells[0].data], position[triangles])
+    for ending in ("obj", "ply"):
+        split = read(f"split.{ending}")
+        same(f"split {ending} positions", split.points, position)
+        same(f"split {ending} triangles", split.cells[0].data, triangles)
+    same("split obj normals", read("split.obj").point_data["obj:vn"], normal)
+    same("split ply normals", read("split.ply").point_data["nx"], normal[:, 0])
+
+    arrays, piece = vtp_arrays(os.path.join(folder, "surface.vtp"))
+    same("vtp counts", [int(piece.get("NumberOfPoints")), int(piece.get("NumberOfPolys"))], np.array([4, 4]))
+    same("vtp points", arrays["Points"], position[vertex])
+    same("vtp rest", arrays["rest"], array("surface.rest", "f4", 3)[vertex])
+    same("vtp triangles", arrays["connectivity"].reshape(-1, 3), welded)
+    same("vtp offsets", arrays["offsets"], np.array([3, 6, 9, 12]))
+    same("vtp normals", arrays["corner_normals"].reshape(-1, 3, 3), normal[triangles])
+    for name in ("face", "piece"):
+        same(f"vtp {name}", arrays[name], array(f"surface.{name}", "i4"))
+
+
 def main(program):
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([program, folder], check=True)
@@ -73,23 +119,7 @@ def check(folder):
     same("left in msh", points[tags == groups["left"]], np.array([0, 3, 6, 9]))
     same("low in msh", points[tags == groups["low & <near>"]], np.array([0, 1, 2]))
 
-    position, triangles = array("surface.position", "f4", 3), array("surface.triangle", "i4", 3)
-    for ending in ("obj", "ply"):
-        surface = read(f"surface.{ending}")
-        same(f"{ending} positions", surface.points, position)
-        same(f"{ending} triangles", surface.cells[0].data, triangles)
-    same("rest obj", read("surface_rest.obj").points, array("surface.rest", "f4", 3))
-    same("ply normal", surface.point_data["nx"], array("surface.normal", "f4", 3)[:, 0])
-    stl = read("surface.stl")
-    same("stl corners", stl.points[stl.cells[0].data], position[triangles])
-    arrays, piece = vtp_arrays(os.path.join(folder, "surface.vtp"))
-    same("vtp counts", [int(piece.get("NumberOfPoints")), int(piece.get("NumberOfPolys"))], np.array([4, 4]))
-    same("vtp points", arrays["Points"], position)
-    same("vtp rest", arrays["rest"], array("surface.rest", "f4", 3))
-    same("vtp triangles", arrays["connectivity"].reshape(-1, 3), triangles)
-    same("vtp offsets", arrays["offsets"], np.array([3, 6, 9, 12]))
-    for name in ("face", "piece"):
-        same(f"vtp {name}", arrays[name], array(f"surface.{name}", "i4"))
+    check_surfaces(folder, array, read)
 
     copies = read("copies.vtu")
     same("copies rest", copies.points, array("copies.rest", "f4", 3))

@@ -31,13 +31,17 @@ inline Body sample_body() {
     return body;
 }
 
-/// A tetrahedron's boundary, moved; and all the arrays that a surface views.
+/// A tetrahedron's boundary, moved, with two vertices at one point; and all the arrays that a surface views.
 struct SampleSurface {
-    std::vector<Vec3f> position = {
-        {0.1F, 0, 1e-20F}, {1 / 3.0F, 0, 0}, {0, -1e10F / 3, 0}, {0, 0, 16777217.F / 3}};
-    std::vector<Vec3f> normal = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6F, 0.8F, 0}};
-    std::vector<Vec3f> rest = {{0, 0, 0}, {0.7F, 0, 0}, {0, 0.7F, 0}, {0, 0, 0.7F}};
-    std::vector<std::array<Index, 3>> triangle = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    std::vector<Vec3f> position = {{0.1F, 0, 1e-20F},
+                                   {1 / 3.0F, 0, 0},
+                                   {0, -1e10F / 3, 0},
+                                   {0, 0, 16777217.F / 3},
+                                   {0, 0, 16777217.F / 3}};
+    std::vector<Vec3f> normal = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6F, 0.8F, 0}, {0, -0.6F, 0.8F}};
+    std::vector<Vec3f> rest = {{0, 0, 0}, {0.7F, 0, 0}, {0, 0.7F, 0}, {0, 0, 0.7F}, {0, 0, 0.7F}};
+    std::vector<Index> point = {7, 2, 9, 4, 4};
+    std::vector<std::array<Index, 3>> triangle = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 4}};
     std::vector<Index> face = {0, 1, -1, 0}, piece = {3, 3, 4, 4};
 
     Surface view() const {
@@ -45,9 +49,17 @@ struct SampleSurface {
         surface.position = position;
         surface.normal = normal;
         surface.rest = rest;
+        surface.point = point;
         surface.triangle = triangle;
         surface.face = face;
         surface.piece = piece;
+        return surface;
+    }
+
+    /// The same with a point for each vertex.
+    Surface split() const {
+        Surface surface = view();
+        surface.point = {};
         return surface;
     }
 };

@@ -32,10 +32,14 @@ void write_samples(const std::string& folder) {
     for (const char* ending : {".obj", ".stl", ".ply", ".vtp"}) {
         must(write_surface(folder + "/surface" + ending, surface.view()));
     }
+    for (const char* ending : {".obj", ".ply"}) {
+        must(write_surface(folder + "/split" + ending, surface.split()));
+    }
     must(write_rest_surface(folder + "/surface_rest.obj", surface.view()));
     write_array(folder + "/surface.position", surface.position);
     write_array(folder + "/surface.normal", surface.normal);
     write_array(folder + "/surface.rest", surface.rest);
+    write_array(folder + "/surface.point", surface.point);
     write_array(folder + "/surface.triangle", surface.triangle);
     write_array(folder + "/surface.face", surface.face);
     write_array(folder + "/surface.piece", surface.piece);

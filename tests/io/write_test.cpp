@@ -87,12 +87,29 @@ TEST_CASE("an ending that is not ours is refused with those that are") {
     CHECK(ending_of("a.b/c.VTU") == ".vtu");
 }
 
-TEST_CASE("OBJ holds the shortest digits that give the same floats") {
+TEST_CASE("OBJ holds one point for each material vertex, normals of corners, and the shortest digits") {
     const Folder folder;
     check_written(write_surface(folder / "a.obj", SampleSurface().view()));
     CHECK(content_of(folder / "a.obj") ==
           "v 0.1 0 1e-20\nv 0.33333334 0 0\nv 0 -3333333200 0\nv 0 0 5592405.5\n"
-          "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+          "vn 1 0 0\nvn 0 1 0\nvn 0 0 1\nvn 0.6 0.8 0\nvn 0 -0.6 0.8\n"
+          "f 1//1 3//3 2//2\nf 1//1 2//2 4//4\nf 1//1 4//4 3//3\nf 2//2 3//3 4//5\n");
+    check_written(write_rest_surface(folder / "rest.obj", SampleSurface().view()));
+    CHECK(content_of(folder / "rest.obj") == "v 0 0 0\nv 0.7 0 0\nv 0 0.7 0\nv 0 0 0.7\n"
+                                             "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+}
+
+TEST_CASE("a PLY has normals as long as every point has one") {
+    const Folder folder;
+    const auto has = [&](const char* words) {
+        return content_of(folder / "a.ply").find(words) != std::string::npos;
+    };
+    check_written(write_surface(folder / "a.ply", SampleSurface().split()));
+    CHECK(has("element vertex 5\n"));
+    CHECK(has("property float nx\n"));
+    check_written(write_surface(folder / "a.ply", SampleSurface().view()));
+    CHECK(has("element vertex 4\n"));
+    CHECK_FALSE(has("property float nx\n"));
 }
 
 TEST_CASE("STL holds a normal and three corners a triangle") {
