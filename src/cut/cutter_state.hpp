@@ -92,6 +92,11 @@ struct Scratch {
     std::vector<Index> flood_of = {}; // [copy] where reached
 };
 
+/// What all increments did so far.
+struct Tally {
+    std::int64_t crossings = 0, bisections = 0;
+};
+
 /// The surface as of `revision`, with what its vertices hang on.
 struct SurfaceCache {
     std::uint64_t revision = 0;
@@ -144,6 +149,7 @@ struct Cutter : CutterState {
 
     SurfaceCache surface = {};
     Scratch scratch = {};
+    Tally tally = {};
 
     Index element_of(Index tet) const { return mesh.copy_element[row(material.tet(tet).copy)]; }
     const Tet& element(Index copy) const { return body.elements.tets[row(mesh.copy_element[row(copy)])]; }
