@@ -63,6 +63,7 @@ struct Scratch {
     std::vector<Seed> seeds = {};
     Marks in_cluster = {}; // tets
     std::vector<Index> cluster = {};
+    std::vector<Index> feet = {}; // vertices
 
     // derive
     std::vector<Index> parted = {};  // copies
