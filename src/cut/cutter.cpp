@@ -137,6 +137,7 @@ void place_blade(Cutter& cutter, Index blade, const Edge& pose) {
     placed.stroke = ++cutter.strokes;
     placed.frame = make_frame(pose);
     placed.travel = 0;
+    placed.step = 0;
     placed.pending.clear();
     placed.sheet.grow(cutter.material.rest.size(), {});
     placed.sheet.reserve(2);

@@ -34,9 +34,8 @@ struct Scratch {
     std::vector<Index> copies_ahead = {};        // within BladeBox::ahead of it
     std::vector<Track> tracks = {};              // [vertex] where tracked
     Marks tracked = {};                          // vertices
-    double path_sum = 0;                         // m, of tracked vertices past the blade
-    Index path_count = 0;
-    std::vector<Index> near = {}; // vertices whose path meets the blade
+    double least_path = 0;                       // m, of a tracked vertex past the blade
+    std::vector<Index> near = {};                // vertices whose path meets the blade
     struct Event {
         MaterialEdge edge = {}; // u < w
         double t = 0;           // from u
