@@ -22,8 +22,8 @@ struct Counts {
     Index most_copies = 1, most_tets = 0;                          // of an element, of a body
     double least_weight = std::numeric_limits<double>::infinity(); // over its floor
     double sheet_distance = 0;                                     // largest root mean square, mean edges
-    double energy_excess = -1;                 // most at any time, as a share (see run.cpp)
-    std::map<std::string, Index> reasons = {}; // of refusals
+    double energy_of_strokes = 0, energy_of_motion = 0;            // most added, as shares (run.cpp)
+    std::map<std::string, Index> reasons = {};                     // of refusals
 };
 void add(Counts& sum, const Counts& counts);
 /// The counts in one line.
