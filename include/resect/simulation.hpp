@@ -79,6 +79,7 @@ public:
     std::uint64_t hash() const;
 
 private:
+    friend Engine& engine_of(Simulation& simulation); // for tests and fuzzing
     explicit Simulation(std::unique_ptr<Engine> engine);
     std::unique_ptr<Engine> engine_;
 };

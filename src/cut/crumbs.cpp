@@ -6,7 +6,7 @@ namespace {
 
 /// Share of the mean element below which a part torn off is a crumb: crossing sheets shave such off where
 /// they snap to different vertices.
-constexpr double crumb_share = 0.1;
+constexpr double crumb_share = 0.2;
 
 /// Collects the tets that links join to `seed`, and stops once they hold `enough` volume.
 bool is_crumb(Cutter& cutter, Index seed, double enough) {

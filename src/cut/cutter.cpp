@@ -59,11 +59,14 @@ bool run_stages(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delta, 
     find_near_copies(cutter, blade, sweep, box);
     refine_near(cutter, blade, sweep, box);
     if (cutter.failing == Stage::refine) { return false; }
+    const std::size_t pending = blade.pending.size();
     detect_crossings(cutter, blade, sweep, box, report);
+    cutter.tally.crossings += static_cast<std::int64_t>(blade.pending.size() - pending);
     report.us.detect += watch.lap();
     if (cutter.failing == Stage::detect) { return false; }
     if (scratch.dirty.empty()) { return true; }
     bisect_separated(cutter, blade);
+    cutter.tally.bisections += scratch.bisections;
     report.us.bisect += watch.lap();
     if (cutter.failing == Stage::bisect) { return false; }
     tear_sheet(cutter, blade, report);
@@ -135,6 +138,7 @@ void place_blade(Cutter& cutter, Index blade, const Edge& pose) {
     placed.stroke = ++cutter.strokes;
     placed.frame = make_frame(pose);
     placed.travel = 0;
+    placed.step = 0;
     placed.pending.clear();
     placed.sheet.grow(cutter.material.rest.size(), {});
     placed.sheet.reserve(2);

@@ -37,9 +37,8 @@ struct Scratch {
     std::vector<Index> copies_ahead = {};        // within BladeBox::ahead of it
     std::vector<Track> tracks = {};              // [vertex] where tracked
     Marks tracked = {};                          // vertices
-    double path_sum = 0;                         // m, of tracked vertices past the blade
-    Index path_count = 0;
-    std::vector<Index> near = {}; // vertices whose path meets the blade
+    double least_path = 0;                       // m, of a tracked vertex past the blade
+    std::vector<Index> near = {};                // vertices whose path meets the blade
     struct Event {
         MaterialEdge edge = {}; // u < w
         double t = 0;           // from u
@@ -66,6 +65,7 @@ struct Scratch {
     std::vector<Seed> seeds = {};
     Marks in_cluster = {}; // tets
     std::vector<Index> cluster = {};
+    std::vector<Index> feet = {}; // vertices
 
     // derive
     std::vector<Index> parted = {};  // copies
@@ -93,6 +93,11 @@ struct Scratch {
     std::vector<Index> stack = {};
     Marks reached = {};               // copies
     std::vector<Index> flood_of = {}; // [copy] where reached
+};
+
+/// What all increments did so far.
+struct Tally {
+    std::int64_t crossings = 0, bisections = 0;
 };
 
 /// Components of the material. Masses and centres are those of the last look.
@@ -135,6 +140,7 @@ struct Cutter : CutterState {
 
     SurfaceCache surface = {};
     Scratch scratch = {};
+    Tally tally = {};
 
     Index element_of(Index tet) const { return mesh.copy_element[row(material.tet(tet).copy)]; }
     const Tet& element(Index copy) const { return body.elements.tets[row(mesh.copy_element[row(copy)])]; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cut/stages.hpp"
 
@@ -45,8 +46,8 @@ const Track& track_vertex(Cutter& cutter, const Sweep& sweep, const BladeBox& bo
     if (!scratch.tracked.set(vertex)) { return track; }
     const Vec3 before = to_frame(sweep.from, displaced_position(cutter, vertex, sweep.before));
     const Vec3 after = to_frame(sweep.to, displaced_position(cutter, vertex, sweep.after));
-    scratch.path_sum += length(Vec3{after[0] - before[0], after[1] - before[1], 0});
-    ++scratch.path_count;
+    scratch.least_path =
+        std::min(scratch.least_path, length(Vec3{after[0] - before[0], after[1] - before[1], 0}));
     const double scale = 1 / cutter.unit;
     track.outside = sides_beyond(box, before) & sides_beyond(box, after);
     track.height_before = before[2];
@@ -169,7 +170,7 @@ double mean_grain(const MaterialMesh& material, const MaterialEdge& edge) {
 void mark_zero(Cutter& cutter, Blade& blade, Index vertex, const Vec3& normal) {
     const bool was_zero = is_zero(blade, vertex);
     SheetMark& mark = blade.sheet.edit(row(vertex));
-    mark.expires = blade.travel + lifetime * cutter.material.grain[row(vertex)];
+    mark.expires = blade.travel + blade.step + lifetime * cutter.material.grain[row(vertex)];
     if (was_zero) { return; }
     mark.stroke = blade.stroke;
     mark.normal = normal;
@@ -224,18 +225,20 @@ void record_crossing(Cutter& cutter, Blade& blade, const Sweep& sweep, const Scr
                       {.t = std::clamp(event.t, margin, 1 - margin),
                        .height = event.height,
                        .is_soft = is_soft,
-                       .expires = blade.travel + lifetime * grain,
+                       .expires = blade.travel + blade.step + lifetime * grain,
                        .normal = normal});
     for (const Index m : ring) {
         queue_tet(cutter, m);
     }
 }
 
-/// How far the blade has gone past the tissue around it, or through the air.
+/// How far the blade goes past the tissue around it where it goes the least: so marks stay fresh where a
+/// blade turns, or tissue moves along with it, however far it goes elsewhere. It counts from the next
+/// increment on, so that they outlast one however long.
 void note_travel(Cutter& cutter, Blade& blade, const Sweep& sweep) {
-    const Scratch& scratch = cutter.scratch;
-    blade.travel += scratch.path_count > 0 ? scratch.path_sum / scratch.path_count
-                                           : length(sweep.to.tip - sweep.from.tip);
+    const double least = cutter.scratch.least_path;
+    blade.travel += blade.step;
+    blade.step = std::isfinite(least) ? least : length(sweep.to.tip - sweep.from.tip);
 }
 
 } // namespace
@@ -263,8 +266,7 @@ void detect_crossings(Cutter& cutter, Blade& blade, const Sweep& sweep, const Bl
     scratch.near.clear();
     scratch.events.clear();
     scratch.off_grid = 0;
-    scratch.path_sum = 0;
-    scratch.path_count = 0;
+    scratch.least_path = std::numeric_limits<double>::infinity();
     scratch.tracked.clear(cutter.material.rest.size());
     if (scratch.tracks.size() < cutter.material.rest.size()) {
         scratch.tracks.resize(2 * cutter.material.rest.size());

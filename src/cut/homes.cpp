@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cut/homes.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace resect {
@@ -12,6 +13,43 @@ bool holds(const HeldRegion& region, const Vec3& rest, const Support& support) {
         if (node >= 0 && region.node_marked[row(node)] == 0) { return false; }
     }
     return true;
+}
+
+bool holds_face(const Cutter& cutter, const HeldRegion& region, const Tet& element, std::size_t face) {
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (k == face) { continue; }
+        const Support node = {{element[k], -1, -1, -1}, {1, 0, 0, 0}};
+        if (!holds(region, cutter.body.elements.nodes[row(element[k])], node)) { return false; }
+    }
+    return true;
+}
+
+/// The copy has skin on a held face of its element that contains the corner.
+bool has_held_skin(const Cutter& cutter, const HeldRegion& region, Index copy, std::size_t corner) {
+    const Tet& element = cutter.element(copy);
+    for (std::size_t face = 0; face < 4; ++face) {
+        if (face == corner || !holds_face(cutter, region, element, face)) { continue; }
+        for (Index m = cutter.first_tet[row(copy)]; m >= 0; m = cutter.material.tet(m).next) {
+            const MaterialTet& tet = cutter.material.tet(m);
+            for (std::size_t k = 0; k < 4; ++k) {
+                const bool is_skin = tet.link[k] < 0 && tet.label[k] == 0;
+                if (is_skin && tet.element_face[k] == static_cast<int>(face)) { return true; }
+            }
+        }
+    }
+    return false;
+}
+
+/// Where its home is held, or some of its skin: cuts may leave the home off a wall that the material still
+/// has.
+bool is_held(const Cutter& cutter, std::span<const Index> pairs, Index home) {
+    const MaterialMesh& material = cutter.material;
+    return std::any_of(cutter.setup.held.begin(), cutter.setup.held.end(), [&](const HeldRegion& region) {
+        return holds(region, material.rest[row(home)], material.support[row(home)]) ||
+               std::any_of(pairs.begin(), pairs.end(), [&](Index pair) {
+                   return has_held_skin(cutter, region, pair / 4, face_of(pair));
+               });
+    });
 }
 
 } // namespace
@@ -39,12 +77,7 @@ void update_home(Cutter& cutter, Index node, std::span<const Index> pairs) {
     SimulationMesh& mesh = cutter.mesh;
     const Index home = find_home(cutter, pairs, mesh.node_reference[row(node)]);
     mesh.node_home.edit(row(node)) = cutter.material.rest[row(home)];
-    mesh.node_held.edit(row(node)) = 0;
-    for (const HeldRegion& region : cutter.setup.held) {
-        if (holds(region, cutter.material.rest[row(home)], cutter.material.support[row(home)])) {
-            mesh.node_held.edit(row(node)) = 1;
-        }
-    }
+    mesh.node_held.edit(row(node)) = is_held(cutter, pairs, home) ? 1 : 0;
 }
 
 } // namespace resect

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 
 #include "cut/stages.hpp"
 
@@ -18,32 +19,31 @@ bool is_flat(const Blade& blade, const Tet& vertex) {
     return is_face_zero(blade, vertex, 0) && is_zero(blade, vertex[0]);
 }
 
-/// Sum of the sheet's normals at a face's corners.
-Vec3 sheet_normal(const Blade& blade, const Tet& vertex, std::size_t face) {
-    Vec3 sum = {};
-    for (std::size_t k = 0; k < 4; ++k) {
-        if (k != face) { sum += blade.sheet[row(vertex[k])].normal; }
-    }
-    return sum;
+/// How steeply a vertex off the sheet rises from one on it, above 0 on the side of the normal: rise over
+/// squared distance, 1/m, the more certain the greater. The sheet is curved, and says little of what lies
+/// along it or far away.
+double find_steepness(const Cutter& cutter, const Blade& blade, Index vertex, Index foot) {
+    const Vec3 away = cutter.material.rest[row(vertex)] - cutter.material.rest[row(foot)];
+    return dot(blade.sheet[row(foot)].normal, away) / dot(away, away);
 }
 
-/// Of the sheet, by the corner that the face leaves out: what lies off the sheet tells the side better than
-/// the face itself, which may stand across it.
+/// By the corner that a face of the sheet leaves out.
 bool is_on_positive_side(const Cutter& cutter, const Blade& blade, const TetFace& at) {
-    const MaterialTet& tet = cutter.material.tet(at.tet);
-    Vec3 from_face = 3.0 * cutter.material.at(tet, at.face);
+    const Tet& vertex = cutter.material.tet(at.tet).vertex;
+    double steepest = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-        if (k != at.face) { from_face = from_face - cutter.material.at(tet, k); }
+        if (k == at.face) { continue; }
+        const double steepness = find_steepness(cutter, blade, vertex[at.face], vertex[k]);
+        if (std::abs(steepness) > std::abs(steepest)) { steepest = steepness; }
     }
-    return dot(sheet_normal(blade, tet.vertex, at.face), from_face) > 0;
+    return steepest > 0;
 }
 
-void tear_face(Cutter& cutter, const Blade& blade, const TetFace& at, CutReport& report) {
+void tear_face(Cutter& cutter, const TetFace& at, Index side, CutReport& report) {
     MaterialMesh& material = cutter.material;
     Scratch& scratch = cutter.scratch;
     const Index link = material.tet(at.tet).link[at.face];
     const TetFace other = {tet_of(link), face_of(link)};
-    const Index side = is_on_positive_side(cutter, blade, at) ? blade.stroke : -blade.stroke;
     const auto open = [&](const TetFace& face, Index label) {
         MaterialTet& tet = material.edit_tet(face.tet);
         tet.link[face.face] = -1;
@@ -64,7 +64,9 @@ void tear_plain_faces(Cutter& cutter, const Blade& blade, CutReport& report) {
             const Index link = cutter.material.tet(m).link[k];
             if (link < 0 || !is_face_zero(blade, vertex, k) || is_zero(blade, vertex[k])) { continue; }
             const Index apex = cutter.material.tet(tet_of(link)).vertex[face_of(link)];
-            if (!is_zero(blade, apex)) { tear_face(cutter, blade, {m, k}, report); }
+            if (is_zero(blade, apex)) { continue; }
+            const bool is_positive = is_on_positive_side(cutter, blade, {m, k});
+            tear_face(cutter, {m, k}, is_positive ? blade.stroke : -blade.stroke, report);
         }
     }
 }
@@ -81,25 +83,85 @@ void collect_cluster(Cutter& cutter, const Blade& blade, Index seed) {
     }
 }
 
-/// Tears a cluster of flat tets off its neighbours on the side where that is less area, if it has some on
-/// both.
-void tear_cluster(Cutter& cutter, const Blade& blade, CutReport& report) {
-    std::array<std::vector<TetFace>, 2> faces; // [side], clusters are few and small
-    std::array<double, 2> area = {};
-    for (const Index m : cutter.scratch.cluster) {
-        const MaterialTet& tet = cutter.material.tet(m);
-        for (std::size_t k = 0; k < 4; ++k) {
-            if (tet.link[k] < 0) { continue; }
-            const TetFace other = {tet_of(tet.link[k]), face_of(tet.link[k])};
-            if (is_flat(blade, cutter.material.tet(other.tet).vertex)) { continue; }
-            const std::size_t side = is_on_positive_side(cutter, blade, other) ? 1 : 0;
-            faces[side].push_back(other);
-            area[side] += length(face_normal(cutter.material, m, k));
+constexpr double snapped = 0.05;           // grains that a vertex of the sheet may lie off it
+constexpr double least_bend_length = 0.25; // grains over which normals can be told apart
+
+/// A face of a cluster of flat tets, seen from the tet beyond it.
+struct ClusterFace {
+    TetFace at = {};
+    double area = 0;
+    bool is_positive = false;
+    double clearness = 0; // of that: steepness over what may be owed to the sheet's bends and to its snapping
+};
+
+/// Vertices of the sheet that edges join to a vertex off it.
+void collect_feet(Cutter& cutter, const Blade& blade, Index vertex, Index tet) {
+    Scratch& scratch = cutter.scratch;
+    scratch.star.clear();
+    scratch.walked.clear(cutter.material.tets.size());
+    walk_star(cutter.material, vertex, tet, scratch.walked, scratch.star);
+    scratch.feet.clear();
+    for (const Index m : scratch.star) {
+        for (const Index v : cutter.material.tet(m).vertex) {
+            if (is_zero(blade, v)) { scratch.feet.push_back(v); }
         }
     }
-    if (faces[0].empty() || faces[1].empty()) { return; }
-    for (const TetFace& face : faces[area[0] < area[1] ? 0 : 1]) {
-        tear_face(cutter, blade, face, report);
+}
+
+ClusterFace judge_face(Cutter& cutter, const Blade& blade, const TetFace& at) {
+    const MaterialMesh& material = cutter.material;
+    const Index vertex = material.tet(at.tet).vertex[at.face];
+    collect_feet(cutter, blade, vertex, at.tet);
+    const std::vector<Index>& feet = cutter.scratch.feet;
+    double steepest = 0;
+    Index foot = feet.front();
+    for (const Index v : feet) {
+        const double steepness = find_steepness(cutter, blade, vertex, v);
+        if (std::abs(steepness) <= std::abs(steepest)) { continue; }
+        steepest = steepness;
+        foot = v;
+    }
+    const double grain = material.grain[row(vertex)];
+    double bend = 0; // 1/m
+    for (const Index v : feet) {
+        const double turn = length(blade.sheet[row(v)].normal - blade.sheet[row(foot)].normal);
+        const double over = length(material.rest[row(v)] - material.rest[row(foot)]);
+        bend = std::max(bend, turn / std::max(over, least_bend_length * grain));
+    }
+    const double distance = length(material.rest[row(vertex)] - material.rest[row(foot)]);
+    const double doubt = bend + snapped * grain / (distance * distance);
+    return {at, length(face_normal(material, at.tet, at.face)), steepest > 0, std::abs(steepest) / doubt};
+}
+
+std::vector<ClusterFace> list_cluster_faces(Cutter& cutter, const Blade& blade) {
+    std::vector<ClusterFace> faces; // clusters are few and small
+    for (const Index m : cutter.scratch.cluster) {
+        for (const Index link : cutter.material.tet(m).link) {
+            if (link < 0 || is_flat(blade, cutter.material.tet(tet_of(link)).vertex)) { continue; }
+            faces.push_back(judge_face(cutter, blade, {tet_of(link), face_of(link)}));
+        }
+    }
+    return faces;
+}
+
+/// Tears a cluster of flat tets off its neighbours on the side where that is less area, if it has some on
+/// both, and off those whose side does not show before the blade has passed them: a crack to spare harms less
+/// than a bridge.
+void tear_cluster(Cutter& cutter, const Blade& blade, CutReport& report) {
+    const std::vector<ClusterFace> faces = list_cluster_faces(cutter, blade);
+    double clearest = 0;
+    for (const ClusterFace& face : faces) {
+        clearest = std::max(clearest, face.clearness);
+    }
+    const double clear = std::min(1.0, clearest);
+    std::array<double, 2> area = {}; // [side]
+    for (const ClusterFace& face : faces) {
+        if (face.clearness >= clear) { area[face.is_positive ? 1 : 0] += face.area; }
+    }
+    const bool keeps_positive = area[1] >= area[0];
+    for (const ClusterFace& face : faces) {
+        if (face.clearness >= clear && face.is_positive == keeps_positive) { continue; }
+        tear_face(cutter, face.at, face.is_positive ? blade.stroke : -blade.stroke, report);
     }
 }
 

@@ -99,6 +99,9 @@ struct Engine : EngineState {
     explicit Engine(int threads) : workers(threads) {}
 };
 
+// simulation.cpp
+Engine& engine_of(Simulation& simulation);
+
 // create.cpp
 Result<std::unique_ptr<Engine>> build_engine(Setup setup);
 

@@ -33,6 +33,8 @@ bool is_under_way(const Engine& engine) {
 
 } // namespace
 
+Engine& engine_of(Simulation& simulation) { return *simulation.engine_; }
+
 Simulation::Simulation(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cut/separate.hpp"
 #include "cut/pieces.hpp"
+#include "cut/separate.hpp"
 #include "cut/stages.hpp"
 #include "strokes.hpp"
 
