@@ -272,8 +272,10 @@ Case draw_planes(std::uint64_t seed) {
         }
         volumes = compute_cells({{0, 0, 0}, {1, 1, 1}}, planes);
     } while (volumes.front() < least);
-    for (const Plane& plane : planes) {
-        drawn.strokes.push_back({.blades = {sweep_plane(plane, random.draw_direction())}, .increments = 40});
+    const Index at_once = random.chance(0.7) ? 1 : random.pick(2, 3);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        if (i % row(at_once) == 0) { drawn.strokes.push_back({.increments = 40}); }
+        drawn.strokes.back().blades.push_back(sweep_plane(planes[i], random.draw_direction()));
     }
     drawn.expected = {
         .pieces = static_cast<Index>(volumes.size()), .is_unpinched = count == 1, .is_on_sheet = true};

@@ -14,28 +14,6 @@ constexpr Index bisections_at_most = 1000000;
 
 double turned(double t, Index from, Index to) { return from < to ? t : 1 - t; }
 
-/// A crossing moves to the half of the edge that it lies on, and the new vertex lies on a sheet that holds
-/// both ends.
-void hand_down(Blade& blade, const std::array<Index, 3>& ends, double t) {
-    const auto [u, w, z] = ends;
-    SheetMark mark;
-    if (is_zero(blade, u) && is_zero(blade, w)) {
-        const SheetMark& at_u = blade.sheet[row(u)];
-        const SheetMark& at_w = blade.sheet[row(w)];
-        mark = {blade.stroke, std::min(at_u.expires, at_w.expires), direction(at_u.normal + at_w.normal)};
-    }
-    blade.sheet.push_back(mark);
-    const Crossing* found = blade.pending.find(u, w);
-    if (found == nullptr) { return; }
-    Crossing crossing = *found;
-    blade.pending.erase(u, w);
-    const double s = turned(crossing.t, u, w);
-    const Index end = s < t ? u : w;
-    const double from_end = s < t ? s / t : (1 - s) / (1 - t);
-    crossing.t = turned(from_end, end, z);
-    blade.pending.set(end, z, crossing);
-}
-
 /// Broken faces may part the tets around the new vertex: each part but the first gets one of its own.
 void part_new_vertex(Cutter& cutter, Index z, std::span<const Index> around) {
     Scratch& scratch = cutter.scratch;
@@ -125,7 +103,7 @@ Index cut_edge(Cutter& cutter, const MaterialEdge& edge, double t, const EdgeCut
     for (Blade& blade : cutter.blades) {
         if (!blade.placed) { continue; }
         if (&blade != cut.blade) {
-            hand_down(blade, {edge.u, edge.w, z}, t);
+            hand_down(cutter, blade, {edge.u, edge.w, z, t, first});
             continue;
         }
         blade.sheet.push_back({blade.stroke, cut.crossing.expires, cut.crossing.normal});

@@ -58,10 +58,11 @@ struct Blade {
     bool placed = false;
     Index stroke = 0; // 1, 2, ... over all blades of a cutter
     BladeFrame frame = {};
-    double travel = 0;              // m, past the tissue around the blade, in this stroke before `step`
-    double step = 0;                // m, of the present increment
-    EdgeMap<Crossing> pending = {}; // of this stroke, not bisected yet
-    Rows<SheetMark> sheet = {};     // [vertex]
+    double travel = 0;               // m, past the tissue around the blade, in this stroke before `step`
+    double step = 0;                 // m, of the present increment
+    EdgeMap<Crossing> pending = {};  // of this stroke, not bisected yet
+    Rows<SheetMark> sheet = {};      // [vertex]
+    std::vector<Index> waiting = {}; // tets that others bisected among its crossings, to look at
     Approach approach = {};
 };
 

@@ -55,6 +55,7 @@ void begin_increment(Cutter& cutter, Delta& delta) {
 bool run_stages(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delta, CutReport& report) {
     Scratch& scratch = cutter.scratch;
     const BladeBox box = make_box(cutter, sweep);
+    scratch.tissue = sweep.before;
     Stopwatch watch;
     find_near_copies(cutter, blade, sweep, box);
     refine_near(cutter, blade, sweep, box);
@@ -62,6 +63,7 @@ bool run_stages(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delta, 
     const std::size_t pending = blade.pending.size();
     detect_crossings(cutter, blade, sweep, box, report);
     cutter.tally.crossings += static_cast<std::int64_t>(blade.pending.size() - pending);
+    queue_waiting(cutter, blade);
     report.us.detect += watch.lap();
     if (cutter.failing == Stage::detect) { return false; }
     if (scratch.dirty.empty()) { return true; }
@@ -140,6 +142,7 @@ void place_blade(Cutter& cutter, Index blade, const Edge& pose) {
     placed.travel = 0;
     placed.step = 0;
     placed.pending.clear();
+    placed.waiting.clear();
     placed.sheet.grow(cutter.material.rest.size(), {});
     placed.sheet.reserve(2);
     placed.approach = {};

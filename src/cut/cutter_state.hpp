@@ -48,9 +48,10 @@ struct Scratch {
     Index off_grid = 0; // tets left out because they are off the integer grid
 
     // bisect and tear
-    std::vector<Index> queue = {}; // tets to look at again
-    Marks queued = {};             // tets that have been in the queue
-    std::vector<Index> dirty = {}; // the same as a list
+    std::span<const Vec3f> tissue = {}; // displacements as blades saw them last, [node]
+    std::vector<Index> queue = {};      // tets to look at again
+    Marks queued = {};                  // tets that have been in the queue
+    std::vector<Index> dirty = {};      // the same as a list
     Index bisections = 0;
     bool is_runaway = false; // more bisections than an increment can want
     Marks walked = {};       // tets

@@ -8,9 +8,7 @@
 namespace resect {
 namespace {
 
-// Snapping, as shares of the local grain: a vertex that the blade passes this closely lies on the sheet. The
-// wider share holds on torn sheets, so that a blade that goes back along its cut uses that cut again.
-constexpr double snap_share = 0.03;
+/// In place of snap_share on torn sheets, so that a blade that goes back along its cut uses that cut again.
 constexpr double snap_share_on_cut = 0.05;
 
 /// How far beyond its tip a blade sees, as a share of the local grain (cutting.md G.3 by way of

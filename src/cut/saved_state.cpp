@@ -14,6 +14,8 @@ void archive_blade(Archive& archive, Blade& blade) {
     archive.value(blade.stroke);
     archive.value(blade.frame);
     archive.value(blade.travel);
+    archive.value(blade.step);
+    archive.rows(blade.waiting);
     blade.pending.archive(archive);
     blade.sheet.archive(archive);
     archive.value(blade.approach.moved);

@@ -6,6 +6,9 @@
 // The stages of an increment, in order. They hand on what they found in Cutter::scratch.
 namespace resect {
 
+/// A vertex that the blade passes as closely as this share of the local grain lies on the sheet.
+inline constexpr double snap_share = 0.03;
+
 struct Sweep {
     BladeFrame from = {}, to = {};
     std::span<const Vec3f> before = {}, after = {}; // displacements, [node]
@@ -56,6 +59,20 @@ const char* find_fault(const Cutter& cutter);
 
 /// Queues a tet, and notes it as changed.
 void queue_tet(Cutter& cutter, Index tet);
+
+/// An edge that has been bisected at z = (1 - t) u + t w: the tets around it are in scratch.ring, their
+/// halves at w begin at row `first`.
+struct Bisection {
+    Index u = 0, w = 0, z = 0;
+    double t = 0;
+    Index first = 0;
+};
+
+/// What another blade than the one that cuts makes of it.
+void hand_down(Cutter& cutter, Blade& blade, const Bisection& cut);
+
+/// Queues the tets that were bisected among the crossings of a blade by others.
+void queue_waiting(Cutter& cutter, Blade& blade);
 
 /// The blade whose crossing cuts an edge, or none.
 struct EdgeCut {
