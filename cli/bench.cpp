@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench_cut.hpp"
+#include "bench_matrix.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "samples.hpp"
@@ -74,14 +75,14 @@ std::vector<NamedBody> bench_bodies() {
 
 int bench(const BenchOptions& options) {
     for (const std::string& name : options.names) {
-        if (name != "step" && name != "cut") {
-            return refuse(fmt::format("bench: '{}' is not known; give step or cut", name));
+        if (name != "step" && name != "cut" && name != "matrix") {
+            return refuse(fmt::format("bench: '{}' is not known; give step, cut or matrix", name));
         }
     }
-    const auto wanted = [&](const char* name) {
-        return options.names.empty() ||
-               std::find(options.names.begin(), options.names.end(), name) != options.names.end();
+    const auto named = [&](const char* name) {
+        return std::find(options.names.begin(), options.names.end(), name) != options.names.end();
     };
+    const auto wanted = [&](const char* name) { return options.names.empty() || named(name); };
     Json json;
     json["resect_version"] = version;
     json["isa"] = instruction_set();
@@ -99,6 +100,7 @@ int bench(const BenchOptions& options) {
         }
     }
     if (wanted("cut")) { json["cut"] = bench_cut(talk); }
+    if (named("matrix")) { json["matrix"] = bench_matrix(options.seeds, std::max(options.threads, 1), talk); }
     if (options.json.empty()) { return done; }
     const Result<void> written = write_text(options.json, json.dump(2) + "\n");
     return written ? done : refuse(written.error().message);

@@ -39,6 +39,7 @@ struct BenchOptions {
     std::vector<std::string> names = {};
     std::string json = {};
     int threads = 0;
+    unsigned seeds = 5;
 };
 
 int run(const RunOptions& options);
