@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench_cut.hpp"
+#include "bench_fuzz.hpp"
 #include "bench_matrix.hpp"
 #include "options.hpp"
 #include "report.hpp"
@@ -75,8 +76,8 @@ std::vector<NamedBody> bench_bodies() {
 
 int bench(const BenchOptions& options) {
     for (const std::string& name : options.names) {
-        if (name != "step" && name != "cut" && name != "matrix") {
-            return refuse(fmt::format("bench: '{}' is not known; give step, cut or matrix", name));
+        if (name != "step" && name != "cut" && name != "matrix" && name != "fuzz") {
+            return refuse(fmt::format("bench: '{}' is not known; give step, cut, matrix or fuzz", name));
         }
     }
     const auto named = [&](const char* name) {
@@ -101,9 +102,12 @@ int bench(const BenchOptions& options) {
     }
     if (wanted("cut")) { json["cut"] = bench_cut(talk); }
     if (named("matrix")) { json["matrix"] = bench_matrix(options.seeds, std::max(options.threads, 1), talk); }
-    if (options.json.empty()) { return done; }
+    long failures = 0;
+    if (named("fuzz")) { json["fuzz"] = bench_fuzz(options, talk, failures); }
+    const int status = failures == 0 ? done : failed;
+    if (options.json.empty()) { return status; }
     const Result<void> written = write_text(options.json, json.dump(2) + "\n");
-    return written ? done : refuse(written.error().message);
+    return written ? status : refuse(written.error().message);
 }
 
 } // namespace cli

@@ -76,10 +76,13 @@ void add_picture(CLI::App& app, cli::PictureOptions& options, int& status) {
 
 void add_bench(CLI::App& app, cli::BenchOptions& options, int& status) {
     CLI::App* command = app.add_subcommand("bench", "measure this machine with this program");
-    command->add_option("name", options.names, "step, cut; both without a name; matrix (minutes)");
+    command->add_option("name", options.names, "step, cut; both without a name; matrix, fuzz (minutes)");
     command->add_option("--threads", options.threads, "threads; of matrix: runs at a time")
         ->check(CLI::Range(0, 256));
     command->add_option("--seeds", options.seeds, "runs of each cell of matrix")->check(CLI::Range(1, 1000));
+    command->add_option("--minutes", options.minutes, "of fuzz")->check(CLI::Range(0.0, 1e5));
+    command->add_option("--seed", options.seed, "of fuzz");
+    command->add_option("--out", options.out, "folder for the cases of fuzz that fail");
     command->add_option("--json", options.json, "file for the figures, or - for standard output");
     command->callback([&] { status = cli::bench(options); });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ struct BenchOptions {
     std::string json = {};
     int threads = 0;
     unsigned seeds = 5;
+    double minutes = 1;     // of fuzz
+    std::uint64_t seed = 1; // of fuzz
+    std::string out = "fuzz_cases";
 };
 
 int run(const RunOptions& options);

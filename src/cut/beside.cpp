@@ -9,7 +9,7 @@ std::array<Index, 4> find_beside(const Cutter& cutter, Index copy) {
         const MaterialTet& tet = cutter.material.tet(m);
         for (std::size_t k = 0; k < 4; ++k) {
             if (tet.link[k] < 0 || tet.element_face[k] < 0) { continue; }
-            Index& known = beside[std::size_t(tet.element_face[k])];
+            Index& known = beside[row(Index{tet.element_face[k]})];
             const Index other = cutter.material.tet(tet_of(tet.link[k])).copy;
             if (known != other) { known = known == no_copy ? other : several_copies; }
         }
