@@ -112,7 +112,7 @@ std::vector<Index> order_by_place(const TetMesh& mesh) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto cell = static_cast<std::uint32_t>(1023 * std::clamp(middle[axis] / largest, 0.0, 1.0));
             for (unsigned bit = 0; bit < 10; ++bit) {
-                code |= ((cell >> bit) & 1U) << (3 * bit + axis);
+                code |= ((cell >> bit) & 1U) << (3U * bit + static_cast<unsigned>(axis));
             }
         }
         codes.emplace_back(code, static_cast<Index>(t));
