@@ -64,7 +64,7 @@ Path straight(double depth, Point a, Point b) {
 Path wedge(double half_width, double depth) {
     return [=](const Site& site, double u) {
         const double way = 2.5 * (2 * u - 1); // 1 at the skin
-        const double round = 0.4;
+        const double round = 0.2;
         const double height = depth * (std::hypot(way, round) - std::hypot(1, round));
         const double s = half_width * site.deepened * way;
         return Edge{site.at(s, -0.12, height), site.at(s, 0.12, height)};
@@ -81,7 +81,7 @@ Point spiral(double u) {
 
 const std::vector<Cut>& cuts() {
     static const std::vector<Cut> all = {
-        {"straight", {straight(0.020, {0, -0.030}, {0, 0.030})}},
+        {"straight", {straight(0.020, {0, -0.027}, {0, 0.027})}},
         {"curved", {upright(0.018, wave)}},
         {"crossing",
          {straight(0.018, {-0.024, -0.024}, {0.024, 0.024}),
