@@ -39,18 +39,21 @@ Json summary(const fuzz::Campaign& campaign) {
 
 Json bench_fuzz(const BenchOptions& options, bool talk, long& failures) {
     std::vector<fuzz::Campaign> campaigns;
+    campaigns.reserve(families.size());
     for (const fuzz::Family family : families) {
         campaigns.emplace_back(family, options.seed, options.out);
     }
     Progress progress;
     Timer timer;
-    for (double passed = 0; passed < 60 * options.minutes; passed += timer.lap()) {
+    double passed = 0;
+    while (passed < 60 * options.minutes) {
         for (fuzz::Campaign& campaign : campaigns) {
             campaign.run_next();
         }
         progress.show(fmt::format("fuzz: {} sweeps, {} plane cuts, {} strokes, {:.1f} of {:g} minutes",
                                   campaigns[0].counts().cases, campaigns[1].counts().cases,
                                   campaigns[2].counts().strokes, passed / 60, options.minutes));
+        passed += timer.lap();
     }
     progress.clear();
     Json json;

@@ -18,7 +18,9 @@ std::size_t bytes_of(const SavedEngine& saved) {
 
 } // namespace
 
-SavedEngine save_engine(const Engine& engine) { return {engine, save_state(*engine.cutter)}; }
+SavedEngine save_engine(const Engine& engine) {
+    return {static_cast<const EngineState&>(engine), save_state(*engine.cutter)};
+}
 
 void restore_engine(Engine& engine, const SavedEngine& saved) {
     static_cast<EngineState&>(engine) = saved.state;
