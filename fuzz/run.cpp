@@ -110,7 +110,7 @@ private:
         const std::size_t first_way = ways_.size();
         std::vector<Vec3> now = move_elements(0);
         for (std::size_t b = 0; b < stroke.blades.size(); ++b) {
-            place_blade(*cutter_, static_cast<Index>(b), stroke.blades[b].front());
+            place_blade(*cutter_, static_cast<Index>(b), stroke.blades[b].front(), of_nodes(now));
             ways_.push_back({{make_frame(stroke.blades[b].front()), now}});
         }
         CutReport report;

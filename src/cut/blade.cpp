@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cut/blade.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace resect {
@@ -20,6 +21,13 @@ BladeFrame place_frame(const Edge& pose, const Vec3& along, const Vec3& across) 
 bool is_sound(const Edge& pose) {
     const double reach = length(pose.heel - pose.tip);
     return is_finite(pose.heel) && is_finite(pose.tip) && std::isfinite(reach) && reach > 0;
+}
+
+double distance_to(const Edge& pose, const Vec3& point) {
+    const Vec3 along = pose.heel - pose.tip;
+    const Vec3 away = point - pose.tip;
+    const double t = std::clamp(dot(away, along) / dot(along, along), 0.0, 1.0);
+    return length(away - t * along);
 }
 
 BladeFrame make_frame(const Edge& pose) {

@@ -20,6 +20,9 @@ struct BladeFrame {
 /// A pose that can cut: finite and of some length.
 bool is_sound(const Edge& pose);
 
+/// Of a point from the blade's edge, m.
+double distance_to(const Edge& pose, const Vec3& point);
+
 BladeFrame make_frame(const Edge& pose);
 /// The frame at `pose`, turned from `frame` by the smallest rotation that turns the edge.
 BladeFrame carry_frame(const BladeFrame& frame, const Edge& pose);
@@ -46,14 +49,7 @@ struct SheetMark {
     Vec3 normal = {};   // of the sheet, at rest
 };
 
-/// How long elements are too far from the blade to be cut (near.cpp).
-struct Approach {
-    double moved = 0; // m, bound on the motion of blade and tissue towards each other so far
-    std::vector<double> safe_until = {}; // [place in near_order] value of `moved` up to which it cannot meet
-    std::vector<double> block_safe_until = {}; // the least of each block of places
-};
-
-/// A blade and its stroke, which lasts from placing to lifting.
+/// A blade and its stroke, which lasts from placing to lifting, and longer if a blade takes it over.
 struct Blade {
     bool placed = false;
     Index stroke = 0; // 1, 2, ... over all blades of a cutter
@@ -63,7 +59,8 @@ struct Blade {
     EdgeMap<Crossing> pending = {};  // of this stroke, not bisected yet
     Rows<SheetMark> sheet = {};      // [vertex]
     std::vector<Index> waiting = {}; // tets that others bisected among its crossings, to look at
-    Approach approach = {};
+    std::vector<double> margin =
+        {}; // [block of elements] m, that it and the blade may move and not meet (near.cpp)
 };
 
 inline bool is_zero(const Blade& blade, Index vertex) {

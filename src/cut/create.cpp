@@ -424,12 +424,11 @@ void reserve_rows(Cutter& cutter) {
     }
     scratch.walked_pairs.grow(4 * copies);
     scratch.tracked.grow(vertices);
-    scratch.classified.grow(nodes);
     scratch.tracks.resize(vertices);
-    scratch.node_outside.resize(nodes);
     scratch.place.resize(nodes);
     scratch.placed.grow(nodes);
     scratch.flood_of.resize(copies);
+    scratch.next_flooded.resize(copies);
 }
 
 Problem build_cutter(Cutter& cutter) {
@@ -447,11 +446,13 @@ Problem build_cutter(Cutter& cutter) {
     for (std::size_t copy = 0; copy < cutter.mesh.copy_element.size(); ++copy) {
         cutter.beside.push_back(find_beside(cutter, static_cast<Index>(copy)));
     }
+    mark_held_faces(cutter);
     make_nodes(cutter);
     cutter.pieces.of_copy.grow(cutter.mesh.copy_node.size(), -1);
     label_pieces(cutter);
     cutter.crowd = crowd_unrefined << cutter.setup.options.refine;
     cutter.near_order = order_by_place(cutter.body.elements);
+    cutter.near_nodes = list_block_nodes(cutter.body.elements, cutter.near_order);
     reserve_rows(cutter);
     cutter.body.material = {};
     cutter.body.element_of = {};

@@ -105,6 +105,42 @@ void run_increment(Cutter& cutter, Blade& blade, const Sweep& sweep, Delta& delt
     refuse(report, fmt::format("the blade passed without cutting: {}", objection), sweep.to.tip);
 }
 
+/// The stroke of a blade that was lifted ended within a grain of the pose: marks or crossings there have not
+/// expired.
+bool ended_at(const Cutter& cutter, const Blade& lifted, const Edge& pose,
+              std::span<const Vec3f> displacement) {
+    const auto is_near = [&](const Vec3& place, Index vertex) {
+        return distance_to(pose, place) <= cutter.material.grain[row(vertex)];
+    };
+    bool found = false;
+    for (Index v = 0; !found && row(v) < lifted.sheet.size(); ++v) {
+        found = is_zero(lifted, v) && is_near(displaced_position(cutter, v, displacement), v);
+    }
+    lifted.pending.each([&](Index u, Index w, const Crossing& crossing) {
+        if (found || lifted.travel > crossing.expires) { return; }
+        const Vec3 from = displaced_position(cutter, u, displacement);
+        const Vec3 to = displaced_position(cutter, w, displacement);
+        found = is_near(from + crossing.t * (to - from), u);
+    });
+    return found;
+}
+
+/// Gives the blade what another, or itself, left behind at the pose when it was lifted.
+bool take_over_stroke(Cutter& cutter, Blade& blade, const Edge& pose, std::span<const Vec3f> displacement) {
+    if (displacement.empty()) { return false; }
+    for (Blade& lifted : cutter.blades) {
+        if (lifted.placed || !ended_at(cutter, lifted, pose, displacement)) { continue; }
+        if (&lifted != &blade) {
+            std::swap(lifted.stroke, blade.stroke);
+            std::swap(lifted.travel, blade.travel);
+            std::swap(lifted.pending, blade.pending);
+            std::swap(lifted.sheet, blade.sheet);
+        }
+        return true;
+    }
+    return false;
+}
+
 } // namespace
 
 std::array<Index, 4> find_nodes(const Cutter& cutter, const Support& support, Index copy) {
@@ -131,27 +167,27 @@ Vec3 displaced_position(const Cutter& cutter, Index vertex, std::span<const Vec3
     return position;
 }
 
-void place_blade(Cutter& cutter, Index blade, const Edge& pose) {
+void place_blade(Cutter& cutter, Index blade, const Edge& pose, std::span<const Vec3f> displacement) {
     RESECT_ASSERT(blade >= 0);
     if (!is_sound(pose)) { return; }
     if (row(blade) >= cutter.blades.size()) { cutter.blades.resize(row(blade) + 1); }
     Blade& placed = cutter.blades[row(blade)];
+    if (!take_over_stroke(cutter, placed, pose, displacement)) {
+        placed.stroke = ++cutter.strokes;
+        placed.travel = 0;
+        placed.pending.clear();
+    }
     placed.placed = true;
-    placed.stroke = ++cutter.strokes;
     placed.frame = make_frame(pose);
-    placed.travel = 0;
     placed.step = 0;
-    placed.pending.clear();
     placed.waiting.clear();
     placed.sheet.grow(cutter.material.rest.size(), {});
     placed.sheet.reserve(2);
-    placed.approach = {};
+    placed.margin.clear();
 }
 
 void lift_blade(Cutter& cutter, Index blade) {
-    if (!has_blade(cutter, blade)) { return; }
-    cutter.blades[row(blade)].placed = false;
-    cutter.blades[row(blade)].pending.clear();
+    if (has_blade(cutter, blade)) { cutter.blades[row(blade)].placed = false; }
 }
 
 bool has_blade(const Cutter& cutter, Index blade) {

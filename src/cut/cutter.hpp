@@ -37,8 +37,9 @@ using CutterPtr = std::unique_ptr<Cutter, CutterDeleter>;
 Result<CutterPtr> make_cutter(const Body& body, CutterSetup setup);
 const SimulationMesh& simulation_mesh(const Cutter& cutter);
 
-/// Places a blade and begins its stroke; cuts nothing.
-void place_blade(Cutter& cutter, Index blade, const Edge& pose);
+/// Places a blade; cuts nothing. Where a stroke ended within an element the blade goes on with it, if
+/// `displacement` ([node], m) tells where that is now; else it begins its own.
+void place_blade(Cutter& cutter, Index blade, const Edge& pose, std::span<const Vec3f> displacement = {});
 void lift_blade(Cutter& cutter, Index blade);
 bool has_blade(const Cutter& cutter, Index blade);
 

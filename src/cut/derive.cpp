@@ -159,10 +159,10 @@ std::size_t place_of(const Tet& tet, Index node) {
     return (tet[1] == node ? 1U : 0U) + (tet[2] == node ? 2U : 0U) + (tet[3] == node ? 3U : 0U);
 }
 
-/// The class of a (copy, corner): the pairs that material faces around its reference node join to it.
+/// The class of a (copy, corner): the pairs that material faces around its node join to it. They all have
+/// that node still, since cuts only part classes.
 void walk_class(Cutter& cutter, Index copy, std::size_t corner) {
     Scratch& scratch = cutter.scratch;
-    const Index reference = cutter.element(copy)[corner];
     Scratch::NodeClass found = {.node = cutter.mesh.copy_node[row(copy)][corner],
                                 .mass = 0,
                                 .begin = static_cast<Index>(scratch.pairs.size()),
@@ -176,7 +176,8 @@ void walk_class(Cutter& cutter, Index copy, std::size_t corner) {
         for (std::size_t face = 0; face < 4; ++face) {
             if (face == own_corner) { continue; }
             each_beside(cutter, at, face, [&](Index beside) {
-                const Index pair = make_link(beside, place_of(cutter.element(beside), reference));
+                const Index pair =
+                    make_link(beside, place_of(cutter.mesh.copy_node[row(beside)], found.node));
                 if (scratch.walked_pairs.set(pair)) { scratch.pairs.push_back(pair); }
             });
         }

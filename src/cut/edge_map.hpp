@@ -30,6 +30,16 @@ public:
         return slot.value;
     }
 
+    /// Calls visit(a, b, value), a < b, in no order that means something.
+    template <class Visit>
+    void each(Visit visit) const {
+        for (const Slot& slot : slots_) {
+            if (slot.key == empty) { continue; }
+            visit(static_cast<Index>(slot.key >> 32U), static_cast<Index>(slot.key & 0xffffffffU),
+                  slot.value);
+        }
+    }
+
     /// Invalidates pointers.
     void set(Index a, Index b, const Value& value) {
         const std::uint64_t key = key_of(a, b);

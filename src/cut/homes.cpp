@@ -25,16 +25,14 @@ bool holds_face(const Cutter& cutter, const HeldRegion& region, const Tet& eleme
 }
 
 /// The copy has skin on a held face of its element that contains the corner.
-bool has_held_skin(const Cutter& cutter, const HeldRegion& region, Index copy, std::size_t corner) {
-    const Tet& element = cutter.element(copy);
-    for (std::size_t face = 0; face < 4; ++face) {
-        if (face == corner || !holds_face(cutter, region, element, face)) { continue; }
-        for (Index m = cutter.first_tet[row(copy)]; m >= 0; m = cutter.material.tet(m).next) {
-            const MaterialTet& tet = cutter.material.tet(m);
-            for (std::size_t k = 0; k < 4; ++k) {
-                const bool is_skin = tet.link[k] < 0 && tet.label[k] == 0;
-                if (is_skin && tet.element_face[k] == static_cast<int>(face)) { return true; }
-            }
+bool has_held_skin(const Cutter& cutter, Index copy, std::size_t corner) {
+    const unsigned held = cutter.held_faces[row(cutter.mesh.copy_element[row(copy)])] & ~(1U << corner);
+    if (held == 0) { return false; }
+    for (Index m = cutter.first_tet[row(copy)]; m >= 0; m = cutter.material.tet(m).next) {
+        const MaterialTet& tet = cutter.material.tet(m);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const bool is_skin = tet.link[k] < 0 && tet.label[k] == 0 && tet.element_face[k] >= 0;
+            if (is_skin && ((held >> unsigned(tet.element_face[k])) & 1U) != 0) { return true; }
         }
     }
     return false;
@@ -44,15 +42,28 @@ bool has_held_skin(const Cutter& cutter, const HeldRegion& region, Index copy, s
 /// has.
 bool is_held(const Cutter& cutter, std::span<const Index> pairs, Index home) {
     const MaterialMesh& material = cutter.material;
-    return std::any_of(cutter.setup.held.begin(), cutter.setup.held.end(), [&](const HeldRegion& region) {
-        return holds(region, material.rest[row(home)], material.support[row(home)]) ||
-               std::any_of(pairs.begin(), pairs.end(), [&](Index pair) {
-                   return has_held_skin(cutter, region, pair / 4, face_of(pair));
-               });
-    });
+    const std::vector<HeldRegion>& held = cutter.setup.held;
+    return std::any_of(held.begin(), held.end(),
+                       [&](const HeldRegion& region) {
+                           return holds(region, material.rest[row(home)], material.support[row(home)]);
+                       }) ||
+           std::any_of(pairs.begin(), pairs.end(),
+                       [&](Index pair) { return has_held_skin(cutter, pair / 4, face_of(pair)); });
 }
 
 } // namespace
+
+void mark_held_faces(Cutter& cutter) {
+    for (const Tet& element : cutter.body.elements.tets) {
+        unsigned faces = 0;
+        for (const HeldRegion& region : cutter.setup.held) {
+            for (unsigned face = 0; face < 4; ++face) {
+                faces |= unsigned{holds_face(cutter, region, element, face)} << face;
+            }
+        }
+        cutter.held_faces.push_back(static_cast<std::uint8_t>(faces));
+    }
+}
 
 Index find_home(const Cutter& cutter, std::span<const Index> pairs, Index reference) {
     const Vec3& goal = cutter.body.elements.nodes[row(reference)];

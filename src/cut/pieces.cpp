@@ -17,9 +17,9 @@ double volume_of(const Cutter& cutter, Index copy) {
 /// The copies that were reached from one seed. Floods that meet are a group, named by its lowest flood.
 struct Flood {
     Index piece = 0, group = 0;
-    std::vector<Index> copies = {};
-    std::size_t next = 0; // of copies, to look around from
-    Index growing = 0;    // of a group: floods that are not done
+    Index first = 0, last = 0; // copies, in a list by scratch.next_flooded
+    Index next = 0;            // of them, to look around from; -1: done
+    Index growing = 0;         // of a group: floods that are not done
 };
 
 class Floods {
@@ -27,7 +27,10 @@ public:
     explicit Floods(Cutter& cutter) : cutter_(cutter), reached_(cutter.scratch.reached) {
         reached_.clear(cutter.mesh.copy_node.size());
         const std::size_t copies = cutter.mesh.copy_node.size();
-        if (cutter.scratch.flood_of.size() < copies) { cutter.scratch.flood_of.resize(2 * copies); }
+        if (cutter.scratch.flood_of.size() < copies) {
+            cutter.scratch.flood_of.resize(2 * copies);
+            cutter.scratch.next_flooded.resize(2 * copies);
+        }
     }
 
     void start_at(Index copy) {
@@ -35,7 +38,8 @@ public:
         const auto flood = static_cast<Index>(floods_.size());
         const Index piece = cutter_.pieces.of_copy[row(copy)];
         cutter_.scratch.flood_of[row(copy)] = flood;
-        floods_.push_back({piece, flood, {copy}, 0, 1});
+        cutter_.scratch.next_flooded[row(copy)] = -1;
+        floods_.push_back({piece, flood, copy, copy, copy, 1});
         count_open(piece, 1);
     }
 
@@ -82,7 +86,9 @@ public:
     void each_copy(Index group, Visit visit) const {
         for (std::size_t f = 0; f < floods_.size(); ++f) {
             if (group_of(static_cast<Index>(f)) != group) { continue; }
-            std::for_each(floods_[f].copies.begin(), floods_[f].copies.end(), visit);
+            for (Index copy = floods_[f].first; copy >= 0; copy = cutter_.scratch.next_flooded[row(copy)]) {
+                visit(copy);
+            }
         }
     }
 
@@ -105,20 +111,23 @@ private:
     }
 
     void step(Index f) {
-        if (floods_[row(f)].next == floods_[row(f)].copies.size()) { return; }
-        const Index copy = floods_[row(f)].copies[floods_[row(f)].next++];
+        const Index copy = floods_[row(f)].next;
+        if (copy < 0) { return; }
         for (std::size_t face = 0; face < 4; ++face) {
             each_beside(cutter_, copy, face, [&](Index other) { reach(f, other); });
         }
-        if (floods_[row(f)].next < floods_[row(f)].copies.size()) { return; }
+        floods_[row(f)].next = cutter_.scratch.next_flooded[row(copy)];
+        if (floods_[row(f)].next >= 0) { return; }
         Flood& group = floods_[row(group_of(f))];
         if (--group.growing == 0) { count_open(group.piece, -1); }
     }
 
     void reach(Index f, Index copy) {
         if (reached_.set(copy)) {
-            cutter_.scratch.flood_of[row(copy)] = f;
-            floods_[row(f)].copies.push_back(copy);
+            Scratch& scratch = cutter_.scratch;
+            scratch.flood_of[row(copy)] = f;
+            scratch.next_flooded[row(std::exchange(floods_[row(f)].last, copy))] = copy;
+            scratch.next_flooded[row(copy)] = -1;
             return;
         }
         const Index a = group_of(f);

@@ -18,9 +18,7 @@ void archive_blade(Archive& archive, Blade& blade) {
     archive.rows(blade.waiting);
     blade.pending.archive(archive);
     blade.sheet.archive(archive);
-    archive.value(blade.approach.moved);
-    archive.rows(blade.approach.safe_until);
-    archive.rows(blade.approach.block_safe_until);
+    archive.rows(blade.margin);
 }
 
 template <class Archive>

@@ -40,7 +40,7 @@ Result<void> apply_one(Engine& engine, const MoveBlade& move) {
     remember_stroke(engine);
     if (engine.blades.empty()) { engine.swept = engine.nodes.displacement; }
     engine.blades.insert(way, {.blade = move.blade, .at = move.to, .before = move.to});
-    place_blade(*engine.cutter, move.blade, move.to);
+    place_blade(*engine.cutter, move.blade, move.to, engine.nodes.displacement);
     return {};
 }
 

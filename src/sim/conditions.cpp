@@ -66,10 +66,19 @@ void update_conditions(Engine& engine, std::span<const Index> touched) {
         if (mesh.node_held[node]) { nodes.velocity[node] = {}; }
     }
     if (!engine.model.loads.empty()) { apply_loads(engine); }
-    if (!engine.prescribed.empty()) { hold_prescribed(engine); }
     engine.fixed.resize(nodes.mass.size());
-    for (std::size_t node = 0; node < engine.fixed.size(); ++node) {
+    const auto note_fixed = [&](std::size_t node) {
         engine.fixed[node] = nodes.inverse_mass[node] == 0 ? 1 : 0;
+    };
+    if (!engine.prescribed.empty()) {
+        hold_prescribed(engine);
+        for (std::size_t node = 0; node < engine.fixed.size(); ++node) {
+            note_fixed(node);
+        }
+        return;
+    }
+    for (const Index node : touched) {
+        note_fixed(row(node));
     }
 }
 

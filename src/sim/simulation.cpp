@@ -97,7 +97,7 @@ Result<CutReport> Simulation::cut(Edge from, Edge to) {
     }
     CutReport report;
     remember_stroke(*engine_);
-    place_blade(*engine_->cutter, blade_of_cut, from);
+    place_blade(*engine_->cutter, blade_of_cut, from, engine_->nodes.displacement);
     sweep_still(*engine_, blade_of_cut, from, to, report);
     lift_blade(*engine_->cutter, blade_of_cut);
     report.pieces = count_pieces(*engine_->cutter);

@@ -59,6 +59,42 @@ TEST_CASE("a soft tip tears as deep as the blade goes, a held one less") {
     }
 }
 
+/// Cuts a jittered cube in one stroke, or in two of which the second begins where the first ended.
+std::uint64_t cut_in_two_strokes(double lifted_at, Index second_blade, CutReport& report) {
+    const CutterPtr cutter = cutter_with(make_cube(4, 0.2, 8), {});
+    const Poses poses = [](double t) {
+        const Vec3 at = {0.53, -0.25 + 1.5 * t, 0.5};
+        return Edge{at + Vec3{0, 0, 2}, at - Vec3{0, 0, 2}};
+    };
+    const auto between = [&](double from, double to) {
+        return [=](double t) { return poses(from + t * (to - from)); };
+    };
+    place_blade(*cutter, 0, poses(0));
+    report = sweep(*cutter, between(0, lifted_at), 30);
+    Index blade = 0;
+    if (second_blade >= 0) {
+        lift_blade(*cutter, 0);
+        blade = second_blade;
+        place_blade(*cutter, blade, poses(lifted_at), displacements(*cutter, stay, 0));
+    }
+    const CutReport rest = sweep(*cutter, between(lifted_at, 1), 30, stay, blade);
+    report.copies_added += rest.copies_added;
+    report.pieces = static_cast<Index>(pieces_of(*cutter).size());
+    CHECK(find_broken_invariant(*cutter) == "");
+    return hash_topology(*cutter);
+}
+
+TEST_CASE("a blade that is put back where one was lifted inside the tissue goes on with its stroke") {
+    for (const double lifted_at : {0.2, 0.37, 0.45, 0.5, 0.61}) {
+        CutReport whole, again, other;
+        const std::uint64_t hash = cut_in_two_strokes(lifted_at, -1, whole);
+        CHECK(whole.pieces == 2);
+        CHECK(cut_in_two_strokes(lifted_at, 0, again) == hash);
+        CHECK(cut_in_two_strokes(lifted_at, 3, other) == hash);
+        CHECK(again.copies_added == whole.copies_added);
+    }
+}
+
 TEST_CASE("one stroke that comes back to its own cut crosses it") {
     constexpr double turn = 2 * 3.14159265358979;
     const auto upright = [](const Vec3& at) {
