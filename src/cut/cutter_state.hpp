@@ -131,6 +131,7 @@ struct Cutter : CutterState {
     CutterSetup setup = {};
     std::vector<double> element_volume = {}; // [element] m^3
     std::vector<double> element_fill = {};   // [element] share that was material at creation
+    std::vector<double> element_weight = {}; // [element] the solver's share of it, all copies together
     double initial_volume = 0;               // m^3, of the material at creation
     double mean_volume = 0;                  // m^3, of an element
     double unit = 1;                         // m, of the integer grid
