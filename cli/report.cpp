@@ -104,6 +104,7 @@ void report_steps(Json& json, SceneRun& run) {
     json["stretch_max"] = strain.stretch_max;
     json["elements_beyond_range"] = strain.elements_beyond_range;
     json["elements_inverted"] = strain.elements_inverted;
+    json["elements_weakened"] = strain.elements_weakened;
     json["steps"] = figures.steps;
     json["simulated_s"] = figures.simulated;
     json["wall_s"] = figures.wall;
@@ -120,6 +121,7 @@ void report_steps(Json& json, SceneRun& run) {
                           {"elastic", energies.elastic},
                           {"gravity", energies.gravity},
                           {"damped", energies.damped}};
+    json["warnings"] = simulation.warnings();
     json["status"] = name(figures.status);
     if (!figures.reason.empty()) { json["reason"] = figures.reason; }
     json["state_hash"] = fmt::format("{:016x}", simulation.hash());

@@ -29,6 +29,9 @@ void print_summary(const Scene& scene, const InitialFigures& initial, SceneRun& 
     if (figures.cut.refused > 0) {
         fmt::print("  refused  {} sweeps: {}\n", figures.cut.refused, figures.cut.reason);
     }
+    for (const std::string& warning : simulation.warnings()) {
+        fmt::print("  warning  {}\n", warning);
+    }
     if (!options.out.empty()) {
         const std::string out = std::filesystem::relative(options.out).string();
         fmt::print(

@@ -133,7 +133,7 @@ double find_least_weight(const Cutter& cutter) {
     for (std::size_t c = 0; c < cutter.mesh.copy_weight.size(); ++c) {
         const std::size_t element = row(cutter.mesh.copy_element[c]);
         const double floor = count[element] > 1 ? std::min(0.2, 0.5 / count[element]) : 1;
-        least = std::min(least, cutter.mesh.copy_weight[c] / (floor * cutter.element_fill[element]));
+        least = std::min(least, cutter.mesh.copy_weight[c] / (floor * cutter.element_weight[element]));
     }
     return least;
 }

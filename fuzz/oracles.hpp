@@ -14,7 +14,7 @@ namespace resect::fuzz {
 /// The mass of the nodes and that of the copies, each over `mass` (kg) less one; whichever is farther from 0.
 double find_mass_error(const Cutter& cutter, double mass);
 
-/// The least weight of a copy over its floor, min(0.2, 0.5 / k) of its element's fill.
+/// The least weight of a copy over its floor, min(0.2, 0.5 / k) of its element's weight.
 double find_least_weight(const Cutter& cutter);
 
 /// Edges of the surface with more than two triangles.

@@ -65,6 +65,7 @@ struct Strain {
     double stretch_min = 1, stretch_max = 1;
     Index elements_beyond_range = 0; // most at any check: where the law is continued (docs/method.md)
     Index elements_inverted = 0;     // at the last check
+    Index elements_weakened = 0;     // since creation: left the range, not borne by their neighbours
 };
 
 struct Range {

@@ -68,6 +68,9 @@ public:
     Energies energies() const;
     TimeStep time_step() const;
     Strain strain() const;
+    /// What goes beyond what the method was seen to reach, by load number or by the state at the last check:
+    /// one sentence each, with the number and what to do. Empty while all is well.
+    std::vector<std::string> warnings() const;
     double time() const;        // s
     std::int64_t steps() const; // since creation
     Snapshot snapshot() const;

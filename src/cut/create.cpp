@@ -350,6 +350,23 @@ Problem make_copies(Cutter& cutter) {
     return {};
 }
 
+/// The solver's share of each element: that of its material, but no less than a floor, whose mass the others
+/// give in proportion to what they have above it; so the body weighs what its material does.
+void share_weight(Cutter& cutter) {
+    double lacking = 0; // kg
+    double spare = 0;   // kg
+    for (std::size_t e = 0; e < cutter.element_fill.size(); ++e) {
+        const double above = cutter.element_fill[e] - least_element_weight;
+        (above < 0 ? lacking : spare) += std::abs(above) * cutter.setup.element_mass[e];
+    }
+    // A body of next to nothing but nearly empty elements has no mass to spare.
+    const bool shared = lacking > 0 && lacking < spare;
+    for (const double fill : cutter.element_fill) {
+        const double above = std::max(0.0, fill - least_element_weight);
+        cutter.element_weight.push_back(shared ? least_element_weight + above * (1 - lacking / spare) : fill);
+    }
+}
+
 Problem weigh_copies(Cutter& cutter) {
     SimulationMesh& mesh = cutter.mesh;
     cutter.element_fill.assign(cutter.element_volume.size(), 0);
@@ -367,6 +384,9 @@ Problem weigh_copies(Cutter& cutter) {
             return fmt::format("element {} holds {:.6g} times its volume: let material tets not overlap", e,
                                cutter.element_fill[e]);
         }
+    }
+    share_weight(cutter);
+    for (std::size_t e = 0; e < cutter.element_fill.size(); ++e) {
         weigh_element(cutter, static_cast<Index>(e));
     }
     return {};

@@ -137,6 +137,7 @@ struct Cutter : CutterState {
     CutterSetup setup = {};
     std::vector<double> element_volume = {};   // [element] m^3
     std::vector<double> element_fill = {};     // [element] share that was material at creation
+    std::vector<double> element_weight = {};   // [element] the solver's share of it, all copies together
     std::vector<std::uint8_t> held_faces = {}; // [element] a bit for each face that lies in a held region
     double initial_volume = 0;                 // m^3, of the material at creation
     double mean_volume = 0;                    // m^3, of an element

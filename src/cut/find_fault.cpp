@@ -74,13 +74,15 @@ Fault check_element(const Cutter& cutter, Index element) {
     }
     const double floor = weight_floor(count);
     for (Index c = first; c >= 0; c = cutter.sibling[row(c)]) {
-        if (!(mesh.copy_weight[row(c)] >= (1 - 1e-12) * floor * fill)) {
+        if (!(mesh.copy_weight[row(c)] >= (1 - 1e-12) * floor * cutter.element_weight[row(element)])) {
             return "a copy would weigh less than its floor";
         }
     }
     const double whole = cutter.setup.options.weights == Weights::copy ? count : 1;
     if (!(std::abs(share - fill) <= 1e-12)) { return "the copies of an element would not fill it"; }
-    if (!(std::abs(weight - whole * fill) <= 1e-12 * whole)) { return "mass would be lost or made"; }
+    if (!(std::abs(weight - whole * cutter.element_weight[row(element)]) <= 1e-12 * whole)) {
+        return "mass would be lost or made";
+    }
     return nullptr;
 }
 

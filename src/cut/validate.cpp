@@ -149,14 +149,14 @@ std::string check_copies(const Cutter& cutter) {
         if (std::abs(share[e] - fill) > 1e-12) {
             return fmt::format("the copies of element {} do not fill it", e);
         }
-        if (std::abs(weight[e] - fill * (whole ? count[e] : 1)) > 1e-12) {
+        if (std::abs(weight[e] - cutter.element_weight[e] * (whole ? count[e] : 1)) > 1e-12) {
             return fmt::format("the weights of element {} sum to {:.9g}", e, weight[e]);
         }
     }
     for (std::size_t c = 0; c < mesh.copy_node.size(); ++c) {
         const std::size_t e = row(mesh.copy_element[c]);
         const double floor = weight_floor(count[e]);
-        if (!(mesh.copy_weight[c] >= (1 - 1e-12) * floor * cutter.element_fill[e])) {
+        if (!(mesh.copy_weight[c] >= (1 - 1e-12) * floor * cutter.element_weight[e])) {
             return fmt::format("copy {} weighs {:.3g}, less than its floor", c, mesh.copy_weight[c]);
         }
     }

@@ -6,6 +6,7 @@ namespace resect {
 void weigh_element(Cutter& cutter, Index element) {
     SimulationMesh& mesh = cutter.mesh;
     const double fill = cutter.element_fill[row(element)];
+    const double whole = cutter.element_weight[row(element)];
     const Index first = cutter.first_copy[row(element)];
     Index count = 0;
     for (Index c = first; c >= 0; c = cutter.sibling[row(c)]) {
@@ -13,7 +14,7 @@ void weigh_element(Cutter& cutter, Index element) {
     }
     if (count == 1 || cutter.setup.options.weights == Weights::copy) {
         for (Index c = first; c >= 0; c = cutter.sibling[row(c)]) {
-            mesh.copy_weight.edit(row(c)) = fill;
+            mesh.copy_weight.edit(row(c)) = whole;
         }
         return;
     }
@@ -25,7 +26,7 @@ void weigh_element(Cutter& cutter, Index element) {
         sum += above(c);
     }
     for (Index c = first; c >= 0; c = cutter.sibling[row(c)]) {
-        mesh.copy_weight.edit(row(c)) = fill * (floor + above(c) * (1 - count * floor) / sum);
+        mesh.copy_weight.edit(row(c)) = whole * (floor + above(c) * (1 - count * floor) / sum);
     }
 }
 

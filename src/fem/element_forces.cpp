@@ -82,7 +82,8 @@ void forces_beyond_range(ForceBlock& out, const ElementBlock& block, const Corne
                          const CornerBlock& v, int lane) {
     const Corners<double> corners = corners_of<double>(block, u, v, lane);
     const Deformation<double> at = deformation(displacement_gradient(corners.relative, corners.gradient));
-    const Energy energy = law(at.now, {double(block.mu[lane]), double(block.bulk[lane])});
+    const Energy energy =
+        law(at.now, {double(block.mu[lane]), double(block.bulk[lane]), double(block.wall[lane])});
     put_forces(out, stress(at, energy), corners, double(block.volume[lane]), lane);
 }
 

@@ -77,7 +77,6 @@ void set_copy(Elements& elements, Index copy, const RestElement& rest, const Mat
     RESECT_ASSERT(0 <= copy && copy < elements.count);
     const Index lane = copy % lanes;
     ElementBlock& block = elements.blocks[row(copy / lanes)];
-    const Moduli m = moduli(material);
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             block.gradient[k][axis][lane] = static_cast<float>(rest.gradient[k + 1][axis]);
@@ -86,9 +85,8 @@ void set_copy(Elements& elements, Index copy, const RestElement& rest, const Mat
     for (Index corner = 0; corner < 4; ++corner) {
         block.node[corner][lane] = options.nodes[row(corner)];
     }
-    block.mu[lane] = static_cast<float>(m.mu);
-    block.bulk[lane] = static_cast<float>(m.bulk);
     block.viscous_time[lane] = static_cast<float>(options.viscous_time);
+    set_moduli(elements, copy, moduli(material));
     set_weight(elements, copy, options.weight, rest.volume);
 }
 
@@ -110,11 +108,28 @@ void append_copy_of(Elements& elements, Index parent) {
     block.mu[lane] = from_block.mu[from];
     block.bulk[lane] = from_block.bulk[from];
     block.viscous_time[lane] = from_block.viscous_time[from];
+    block.wall[lane] = from_block.wall[from];
 }
 
 void set_weight(Elements& elements, Index copy, double weight, double volume) {
     RESECT_ASSERT(0 <= copy && copy < elements.count);
     elements.blocks[row(copy / lanes)].volume[copy % lanes] = static_cast<float>(weight * volume);
+}
+
+void set_moduli(Elements& elements, Index copy, const Moduli& moduli) {
+    RESECT_ASSERT(0 <= copy && copy < elements.count);
+    ElementBlock& block = elements.blocks[row(copy / lanes)];
+    const Index lane = copy % lanes;
+    block.mu[lane] = static_cast<float>(moduli.mu);
+    block.bulk[lane] = static_cast<float>(moduli.bulk);
+    block.wall[lane] = static_cast<float>(moduli.wall);
+}
+
+Moduli moduli_of(const Elements& elements, Index copy) {
+    RESECT_ASSERT(0 <= copy && copy < elements.count);
+    const ElementBlock& block = elements.blocks[row(copy / lanes)];
+    const Index lane = copy % lanes;
+    return {double(block.mu[lane]), double(block.bulk[lane]), double(block.wall[lane])};
 }
 
 void set_corner(Elements& elements, Index copy, Index corner, Index node) {

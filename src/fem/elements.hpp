@@ -7,6 +7,7 @@
 #include "resect/setup.hpp"
 
 #include "base/vec.hpp"
+#include "fem/law.hpp"
 #include "mesh/tet.hpp"
 
 namespace resect {
@@ -19,6 +20,7 @@ struct alignas(64) ElementBlock {
     float gradient[3][3][lanes];  // 1/m, rest shape derivatives of corners 1, 2, 3 [corner - 1][axis]
     float volume[lanes];          // m^3, weight times rest volume
     float mu[lanes], bulk[lanes]; // Pa
+    float wall[lanes];            // of bulk, see Moduli
     float viscous_time[lanes];    // s
 };
 
@@ -67,6 +69,9 @@ void set_copy(Elements& elements, Index copy, const RestElement& rest, const Mat
 void append_copy_of(Elements& elements, Index parent);
 /// `volume` is the rest volume of the whole element.
 void set_weight(Elements& elements, Index copy, double weight, double volume);
+/// What the law is told of a copy: its material's, but for what a caller made of it.
+void set_moduli(Elements& elements, Index copy, const Moduli& moduli);
+Moduli moduli_of(const Elements& elements, Index copy);
 /// Sets one corner's node without touching the lists by node.
 void set_corner(Elements& elements, Index copy, Index corner, Index node);
 Tet corners(const Elements& elements, Index copy);

@@ -18,7 +18,6 @@ namespace {
 
 constexpr double softening_width = 0.3; // of a threshold
 constexpr double fade_width = 0.4;      // in J', of the curvature of phi
-constexpr double wall = 3;              // of K
 
 /// A function of one argument with its first and second derivative.
 struct Curve {
@@ -44,14 +43,19 @@ Curve isochoric_minus_1(double change) {
     return {value, slope, d < in ? 0 : curvature0 * (1 + in / fade_width)};
 }
 
-/// U / K: (J' - 1)^2 / 2 and the wall below trusted_volume.
-Curve volumetric(double change) {
+/// U / K: (J' - 1)^2 / 2 and the wall below trusted_volume, a cubic and then a parabola; what the wall is
+/// raised by is a parabola at once, which pushes most for the tangent that it takes.
+Curve volumetric(double change, double wall) {
     constexpr double J0 = trusted_volume;
+    constexpr double common = Moduli{}.wall;
     const double m = std::max(0.0, J0 - 1 - change);
     const double in = std::min(m, J0); // the cubic's share; the rest lies below J' = 0
     const double out = m - in;
-    return {change * change / 2 + wall * (in * in * in / (6 * J0) + in * out / 2 + out * out / 2),
-            change - wall * (in * in / (2 * J0) + out), 1 + wall * in / J0};
+    const double raised = wall - common;
+    return {change * change / 2 + common * (in * in * in / (6 * J0) + in * out / 2 + out * out / 2) +
+                raised * m * m / 2,
+            change - common * (in * in / (2 * J0) + out) - raised * m,
+            1 + common * in / J0 + (m > 0 ? raised : 0)};
 }
 
 /// k: 1 up to trusted_area, then falling like I2^(-1/2).
@@ -79,7 +83,7 @@ Energy law(const Invariants<double>& now, const Moduli& m) {
     const Curve k = area_softening(now.area_change);
     const Curve g = length_softening(now.length_change);
     const Curve phi = isochoric_minus_1(change * k.value);
-    const Curve U = volumetric(change * k.value);
+    const Curve U = volumetric(change * k.value, m.wall);
     const double half = m.mu / 2;
     const double p = half * phi.slope * g.value + m.bulk * U.slope; // dW / dJ'
     const double pp = half * phi.curvature * g.value + m.bulk * U.curvature;

@@ -13,6 +13,7 @@ namespace resect {
 
 struct Moduli {
     double mu = 0, bulk = 0; // Pa
+    double wall = 3;         // of bulk, that rises against being crushed, below trusted_volume
 };
 
 inline Moduli moduli(const Material& material) {

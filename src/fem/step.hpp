@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -58,14 +59,17 @@ struct StrainCheck {
     Index worst_copy = -1;                                       // smallest live bound
     double live_bound = std::numeric_limits<double>::infinity(); // s
 };
-/// Of copies [begin, end); `density` is by copy, kg/m^3. Viscosity does not count.
+/// Of copies [begin, end); `density` is by copy, kg/m^3. Viscosity does not count. Marks in `beyond`, [copy]
+/// unless it is empty, by 1 those that are not is_trusted, by 0 the others.
 StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std::span<const float> density,
-                         Range copies);
+                         Range copies, std::span<std::uint8_t> beyond = {});
 /// Of both ranges; the earlier one's copy stays where bounds are equal.
 StrainCheck merge(const StrainCheck& a, const StrainCheck& b);
 
-double kinetic_energy(const NodeArrays& nodes);                                         // J, at the half step
-double elastic_energy(const Elements& elements, std::span<const Vec3f> displacement);   // J
+double kinetic_energy(const NodeArrays& nodes);                                       // J, at the half step
+double elastic_energy(const Elements& elements, std::span<const Vec3f> displacement); // J
+/// Of one copy, J.
+double elastic_energy(const Elements& elements, std::span<const Vec3f> displacement, Index copy);
 double von_mises_stress(const Elements& elements, const NodeArrays& nodes, Index copy); // Pa, Cauchy
 
 } // namespace resect

@@ -32,7 +32,7 @@ CopyState state_of(const Elements& elements, std::span<const Vec3f> displacement
     }
     state.at = deformation(displacement_gradient(relative, state.gradient));
     state.volume = double(block.volume[lane]);
-    state.moduli = {double(block.mu[lane]), double(block.bulk[lane])};
+    state.moduli = {double(block.mu[lane]), double(block.bulk[lane]), double(block.wall[lane])};
     return state;
 }
 
@@ -60,7 +60,8 @@ double live_bound(const CopyState& state, const Stretches& stretches, double den
     for (int i = 0; i < 3; ++i) {
         cof.at[i][i] += 1;
     }
-    const TangentBound tangent = bound_tangent(stretches, state.moduli);
+    // What a wall is raised by is borne by neighbours' mass (sim/stiffness.cpp).
+    const TangentBound tangent = bound_tangent(stretches, {state.moduli.mu, state.moduli.bulk});
     const double stiffness = tangent.volumetric * sum_of_squares(cof, state.gradient) +
                              tangent.remainder * sum_of_squares(identity, state.gradient);
     return std::sqrt(density / stiffness); // infinite where nothing resists
@@ -78,22 +79,28 @@ StrainCheck merge(const StrainCheck& a, const StrainCheck& b) {
 }
 
 StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std::span<const float> density,
-                         Range copies) {
+                         Range copies, std::span<std::uint8_t> beyond) {
     StrainCheck check;
     for (Index copy = copies.begin; copy < copies.end; ++copy) {
         const CopyState state = state_of(elements, nodes.displacement, copy);
         const Stretches now = principal_stretches(state.at.H);
-        check = merge(check, {now.value[2], now.value[0], is_trusted(state.at.now) ? 0 : 1,
-                              now.J <= 0 ? 1 : 0, copy, live_bound(state, now, double(density[row(copy)]))});
+        const bool trusted = is_trusted(state.at.now);
+        if (!beyond.empty()) { beyond[row(copy)] = trusted ? 0 : 1; }
+        check = merge(check, {now.value[2], now.value[0], trusted ? 0 : 1, now.J <= 0 ? 1 : 0, copy,
+                              live_bound(state, now, double(density[row(copy)]))});
     }
     return check;
+}
+
+double elastic_energy(const Elements& elements, std::span<const Vec3f> displacement, Index copy) {
+    const CopyState state = state_of(elements, displacement, copy);
+    return state.volume * law(state.at.now, state.moduli).W;
 }
 
 double elastic_energy(const Elements& elements, std::span<const Vec3f> displacement) {
     double energy = 0;
     for (Index copy = 0; copy < elements.count; ++copy) {
-        const CopyState state = state_of(elements, displacement, copy);
-        energy += state.volume * law(state.at.now, state.moduli).W;
+        energy += elastic_energy(elements, displacement, copy);
     }
     return energy;
 }

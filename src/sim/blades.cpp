@@ -49,6 +49,8 @@ void apply_delta(Engine& engine, CutReport& report) {
     for (const Delta::NewCopy& copy : delta.copies) {
         const float density = engine.copy_density[row(copy.parent)];
         engine.copy_density.push_back(density);
+        const std::uint8_t weak = engine.weak[row(copy.parent)];
+        engine.weak.push_back(weak);
     }
     report.us.derive += watch.lap();
     append_quantities(engine, delta.copies);
@@ -62,6 +64,7 @@ void apply_delta(Engine& engine, CutReport& report) {
                    engine.model.rest[row(element)].volume);
     }
     relink_corners(engine.elements, delta.touched_nodes, static_cast<Index>(engine.nodes.mass.size()));
+    update_stiffness(engine, delta.touched_nodes);
     update_conditions(engine, delta.touched_nodes);
     report.us.derive += watch.lap();
 }

@@ -139,6 +139,7 @@ void build_elements(Engine& engine) {
                      .weight = mesh.copy_weight[copy],
                      .nodes = mesh.copy_node[copy]});
         engine.copy_density.push_back(static_cast<float>(model.materials[region].density));
+        engine.weak.push_back(0);
     }
     link_corners(engine.elements, static_cast<Index>(mesh.node_reference.size()));
 }
@@ -155,6 +156,7 @@ void reserve_rows(Engine& engine) {
     reserve_ahead(nodes.inverse_mass, reserved);
     reserve_ahead(engine.fixed, reserved);
     reserve_ahead(engine.copy_density, reserved);
+    reserve_ahead(engine.weak, reserved);
     reserve_ahead(engine.elements.blocks, reserved);
     reserve_ahead(engine.elements.forces, reserved);
     reserve_ahead(engine.elements.first_slot, reserved);
@@ -197,6 +199,8 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup) {
     }
     build_elements(*engine);
     build_nodes(*engine, setup.initial);
+    engine->model.load_number = measure_load_number(*engine);
+    update_all_stiffness(*engine);
     reserve_rows(*engine);
     engine->elastic_start = elastic_energy(engine->elements, engine->nodes.displacement);
     engine->kinetic = kinetic_energy(engine->nodes);

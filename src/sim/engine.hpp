@@ -35,6 +35,7 @@ struct Model {
     double rest_bound = 0;   // s
     double size = 0;         // diagonal of the rest box, m
     double element_size = 0; // cube root of the mean element's volume, m
+    double load_number = 0;  // rho g L / E at creation, see measure_load_number
 };
 
 /// A blade on its way: poses that the next steps have yet to sweep, in order.
@@ -75,6 +76,7 @@ struct EngineState {
 
     std::vector<std::uint8_t> fixed = {}; // [node] 1: held or prescribed
     std::vector<float> copy_density = {}; // [copy] kg/m^3
+    std::vector<std::uint8_t> weak = {};  // [copy] 1: it has left the trusted range, see stiffness.cpp
 };
 
 /// Everything that a simulation can go back to.
@@ -94,6 +96,7 @@ struct Engine : EngineState {
 
     std::vector<StepSums> sums = {};            // scratch of a step [chunk]
     std::vector<StrainCheck> strain_parts = {}; // scratch of a check [chunk]
+    std::vector<std::uint8_t> left_range = {};  // scratch of a check [copy] 1: beyond the trusted range
     Delta delta = {};                           // scratch of a sweep
 
     explicit Engine(int threads) : workers(threads) {}
@@ -117,6 +120,14 @@ double least_step_bound(const Model& model);
 /// those of their parents, or of S.
 void append_quantities(Engine& engine, std::span<const Delta::NewCopy> copies);
 
+// stiffness.cpp
+/// Moduli of the copies at the listed nodes, after S has changed there.
+void update_stiffness(Engine& engine, std::span<const Index> touched);
+/// Of all copies, computed anew.
+void update_all_stiffness(Engine& engine);
+/// Weakens for good the copies that the last check found beyond the trusted range.
+void weaken_strained(Engine& engine);
+
 // step.cpp
 /// Forces of the present state, for node_update and settle.
 void compute_forces(Engine& engine);
@@ -128,6 +139,13 @@ bool step_motion(Engine& engine);
 void check_strain_now(Engine& engine);
 /// The element that went wrong in a step that step_motion refused, and why, in words.
 Index find_diverged_element(const Engine& engine, std::string& reason);
+
+// warn.cpp
+/// rho g L / E of the softest material, L how far the body reaches from the box of what is held; 0 where
+/// nothing is.
+double measure_load_number(const Engine& engine);
+/// What goes beyond what the method was seen to reach, in words; empty while all is well.
+std::vector<std::string> find_warnings(const Engine& engine);
 
 // blades.cpp
 /// Sweeps the blades' next poses while the nodes move from where they were swept last to now; `left` counts

@@ -10,10 +10,12 @@ void set_rest_of(Engine& engine, const RestElement& rest, Index copy) {
     const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
     const Model& model = engine.model;
     const std::size_t region = row(model.region[row(mesh.copy_element[row(copy)])]);
+    const Moduli present = moduli_of(engine.elements, copy); // a matter of S and of the past (stiffness.cpp)
     set_copy(engine.elements, copy, rest, model.materials[region],
              {.viscous_time = model.viscous_time[region],
               .weight = mesh.copy_weight[row(copy)],
               .nodes = mesh.copy_node[row(copy)]});
+    set_moduli(engine.elements, copy, present);
 }
 
 void compute_masses(Engine& engine) {

@@ -172,6 +172,8 @@ TimeStep Simulation::time_step() const {
 
 Strain Simulation::strain() const { return engine_->strain; }
 
+std::vector<std::string> Simulation::warnings() const { return find_warnings(*engine_); }
+
 double Simulation::time() const {
     return static_cast<double>(engine_->step - engine_->clock_start) * engine_->time_step;
 }

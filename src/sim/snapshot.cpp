@@ -120,6 +120,7 @@ void archive_state(Archive& archive, EngineState& state) {
     archive.value(state.live_bound);
     archive.rows(state.fixed);
     archive.rows(state.copy_density);
+    archive.rows(state.weak);
 }
 
 template <class Archive>

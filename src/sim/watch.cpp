@@ -42,11 +42,13 @@ double present_volume(const Engine& engine, Index copy) {
 void check_strain_now(Engine& engine) {
     const Index chunks = chunk_count(copies_a_chunk, engine.elements.count);
     engine.strain_parts.resize(static_cast<std::size_t>(chunks));
+    engine.left_range.resize(row(engine.elements.count));
     engine.workers.run(chunks, [&](Index chunk) {
         const auto [begin, end] = chunk_range(chunk, copies_a_chunk, engine.elements.count);
         engine.strain_parts[row(chunk)] =
-            check_strain(engine.elements, engine.nodes, engine.copy_density, {begin, end});
+            check_strain(engine.elements, engine.nodes, engine.copy_density, {begin, end}, engine.left_range);
     });
+    weaken_strained(engine);
     StrainCheck now;
     for (const StrainCheck& part : engine.strain_parts) {
         now = merge(now, part);
