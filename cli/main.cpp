@@ -26,6 +26,19 @@ std::string one_line(std::string text) {
     return text;
 }
 
+void add_isa(CLI::App& command, std::string& isa) {
+    command.add_option_function<std::string>(
+        "--isa",
+        [&isa](const std::string& name) {
+            isa = name;
+            if (!resect::choose_instruction_set(name)) {
+                throw CLI::ValidationError(
+                    "--isa", fmt::format("'{}' does not run here; give sse2, avx2 or avx512", name));
+            }
+        },
+        "instruction set of the element kernels: sse2, avx2, avx512; the best without");
+}
+
 void add_run(CLI::App& app, cli::RunOptions& options, int& status) {
     CLI::App* command = app.add_subcommand("run", "run a scene");
     command->add_option("scene", options.scene, "scene file (JSON)")->required();
@@ -35,6 +48,7 @@ void add_run(CLI::App& app, cli::RunOptions& options, int& status) {
     command->add_option("--threads", options.threads, "threads; 0: one a core")->check(CLI::Range(0, 256));
     command->add_option("--set", options.overrides, "scene values, as key=value")->take_all();
     command->add_option("--json", options.json, "file for the report, or - for standard output");
+    add_isa(*command, options.isa);
     command->callback([&] { status = cli::run(options); });
 }
 
@@ -76,14 +90,17 @@ void add_picture(CLI::App& app, cli::PictureOptions& options, int& status) {
 
 void add_bench(CLI::App& app, cli::BenchOptions& options, int& status) {
     CLI::App* command = app.add_subcommand("bench", "measure this machine with this program");
-    command->add_option("name", options.names, "step, cut; both without a name; matrix, fuzz (minutes)");
+    command->add_option("name", options.names,
+                        "step, cut; both without a name; realtime, matrix, fuzz (minutes)");
     command->add_option("--threads", options.threads, "threads; of matrix: runs at a time")
         ->check(CLI::Range(0, 256));
+    command->add_flag("--large", options.large, "of step: blocks of 400k and 3M, a liver of 100,000");
     command->add_option("--seeds", options.seeds, "runs of each cell of matrix")->check(CLI::Range(1, 1000));
     command->add_option("--minutes", options.minutes, "of fuzz")->check(CLI::Range(0.0, 1e5));
     command->add_option("--seed", options.seed, "of fuzz");
     command->add_option("--out", options.out, "folder for the cases of fuzz that fail");
     command->add_option("--json", options.json, "file for the figures, or - for standard output");
+    add_isa(*command, options.isa);
     command->callback([&] { status = cli::bench(options); });
 }
 

@@ -18,6 +18,7 @@ struct RunOptions {
     std::string out = {};
     int threads = 0;
     std::vector<std::string> overrides = {};
+    std::string isa = {};
     std::string json = {};
 };
 
@@ -40,6 +41,8 @@ struct BenchOptions {
     std::vector<std::string> names = {};
     std::string json = {};
     int threads = 0;
+    std::string isa = {}; // of step: this one only
+    bool large = false;   // of step
     unsigned seeds = 5;
     double minutes = 1;     // of fuzz
     std::uint64_t seed = 1; // of fuzz

@@ -223,7 +223,6 @@ std::string find_stale_array(const Engine& engine) {
             return fmt::format("copy {} has another weight in the solver", c);
         }
     }
-    std::vector<std::uint8_t> listed(row(4 * engine.elements.count), 0);
     for (std::size_t n = 0; n < mesh.node_mass.size(); ++n) {
         if (engine.nodes.mass[n] != static_cast<float>(mesh.node_mass[n])) {
             return fmt::format("node {} has another mass in the solver", n);
@@ -231,16 +230,8 @@ std::string find_stale_array(const Engine& engine) {
         if ((engine.nodes.inverse_mass[n] == 0) != (mesh.node_held[n] != 0)) {
             return fmt::format("node {} is held in one of S and the solver only", n);
         }
-        for (Index slot = engine.elements.first_slot[n]; slot >= 0;
-             slot = engine.elements.next_slot[row(slot)]) {
-            if (mesh.copy_node[row(slot / 4)][row(slot % 4)] != static_cast<Index>(n)) {
-                return fmt::format("node {} gathers the force of another", n);
-            }
-            listed[row(slot)] = 1;
-        }
     }
-    const bool is_complete = std::all_of(listed.begin(), listed.end(), [](auto once) { return once != 0; });
-    return is_complete ? "" : "the force of a corner is gathered nowhere";
+    return find_packing_fault(engine.packing, engine.elements);
 }
 
 double measure_rest_bound(const Engine& engine) {

@@ -87,7 +87,9 @@ private:
     std::unique_ptr<Engine> engine_;
 };
 
-/// The instruction set that the element kernels run on here.
+/// The instruction set that the element kernels run on here: avx512, avx2 or sse2. All give the same bits.
 const char* instruction_set();
+/// Forces one for the whole process, before any simulation steps. False: this processor has no such.
+bool choose_instruction_set(const std::string& name);
 
 } // namespace resect

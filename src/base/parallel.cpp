@@ -10,6 +10,7 @@ namespace {
 
 // About as long as a step of a small body leaves between two jobs; longer waits sleep.
 constexpr int spins = 4000;
+constexpr std::uint32_t open = std::uint32_t{1} << 31U;
 
 void pause_briefly() {
 #if defined(__x86_64__)
@@ -30,15 +31,18 @@ std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint
     return value.load(std::memory_order_acquire);
 }
 
+int count_threads(int wanted) {
+    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return wanted > 0 ? std::min(wanted, 256) : cores;
+}
+
 } // namespace
 
-Workers::Workers(int threads) {
-    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    const int wanted = threads > 0 ? std::min(threads, 256) : cores;
-    helpers_.reserve(static_cast<std::size_t>(wanted - 1));
+Workers::Workers(int threads) : own_(static_cast<std::size_t>(count_threads(threads))) {
+    helpers_.reserve(own_.size() - 1);
     try {
-        for (int i = 1; i < wanted; ++i) {
-            helpers_.emplace_back([this] { help(); });
+        for (std::size_t thread = 1; thread < own_.size(); ++thread) {
+            helpers_.emplace_back([this, thread] { help(thread); });
         }
     } catch (const std::system_error&) {
         // The machine gives no more threads: fewer do the same work.
@@ -51,19 +55,22 @@ Workers::~Workers() {
     job_.notify_all();
 }
 
-void Workers::take_chunks() {
-    for (Index chunk = next_.fetch_add(1, std::memory_order_relaxed); chunk < count_;
-         chunk = next_.fetch_add(1, std::memory_order_relaxed)) {
-        call_(task_, chunk);
+void Workers::take_chunks(std::size_t thread) {
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+        Own& own = own_[(thread + i) % own_.size()];
+        for (Index chunk = own.next.fetch_add(1, std::memory_order_relaxed); chunk < own.end;
+             chunk = own.next.fetch_add(1, std::memory_order_relaxed)) {
+            call_(task_, chunk);
+        }
     }
 }
 
-void Workers::help() {
+void Workers::help(std::size_t thread) {
     for (std::uint32_t seen = 0;;) {
         seen = wait_for_change(job_, seen);
         if (leaving_.load(std::memory_order_relaxed)) { return; }
-        take_chunks();
-        if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) { busy_.notify_one(); }
+        if ((inside_.fetch_add(1, std::memory_order_acquire) & open) != 0) { take_chunks(thread); }
+        if (inside_.fetch_sub(1, std::memory_order_acq_rel) == 1) { inside_.notify_one(); }
     }
 }
 
@@ -76,14 +83,20 @@ void Workers::run_erased(Index count, Call call, void* task) {
     }
     call_ = call;
     task_ = task;
-    count_ = count;
-    next_.store(0, std::memory_order_relaxed);
-    busy_.store(static_cast<std::uint32_t>(helpers_.size()), std::memory_order_relaxed);
+    const auto threads = static_cast<Index>(own_.size());
+    for (Index thread = 0; thread < threads; ++thread) {
+        const auto begin = [&](std::int64_t t) { return static_cast<Index>(t * count / threads); };
+        Own& own = own_[static_cast<std::size_t>(thread)];
+        own.end = begin(thread + 1);
+        own.next.store(begin(thread), std::memory_order_relaxed);
+    }
+    inside_.fetch_or(open, std::memory_order_release);
     job_.fetch_add(1, std::memory_order_release);
     job_.notify_all();
-    take_chunks();
-    for (std::uint32_t left = busy_.load(std::memory_order_acquire); left != 0;) {
-        left = wait_for_change(busy_, left);
+    take_chunks(0);
+    std::uint32_t left = inside_.fetch_and(~open, std::memory_order_acq_rel) & ~open;
+    while (left != 0) {
+        left = wait_for_change(inside_, left);
     }
 }
 

@@ -13,8 +13,10 @@
 namespace resect {
 
 /// Threads that share the chunks of one job at a time. Chunks are the caller's and do not depend on the
-/// number of threads, so results need not either. Waiting threads spin for a moment, then sleep: idle workers
-/// cost nothing.
+/// number of threads, so results need not either. Each thread begins with chunks of its own, the same in
+/// every job of one count, which keeps them in its cache, and then helps the others. Nobody waits for a
+/// thread that has no chunk in hand. Waiting threads spin for a moment, then sleep: idle workers cost
+/// nothing.
 class Workers {
 public:
     explicit Workers(int threads); // counting the caller's; 0: one a core
@@ -36,15 +38,20 @@ public:
 private:
     using Call = void (*)(void* task, Index chunk);
     void run_erased(Index count, Call call, void* task);
-    void take_chunks();
-    void help();
+    void take_chunks(std::size_t thread);
+    void help(std::size_t thread);
+
+    /// The chunks that a thread begins with.
+    struct alignas(64) Own {
+        std::atomic<Index> next{0};
+        Index end = 0;
+    };
 
     Call call_ = nullptr;
     void* task_ = nullptr;
-    Index count_ = 0;
-    std::atomic<Index> next_{0};
-    std::atomic<std::uint32_t> job_{0};  // counts jobs
-    std::atomic<std::uint32_t> busy_{0}; // helpers that have yet to finish the present job
+    std::vector<Own> own_;                 // [thread], the caller's first
+    std::atomic<std::uint32_t> job_{0};    // counts jobs
+    std::atomic<std::uint32_t> inside_{0}; // helpers in the present job; its highest bit: they may enter
     std::atomic<bool> leaving_{false};
     std::vector<std::jthread> helpers_;
 };

@@ -439,7 +439,7 @@ void reserve_rows(Cutter& cutter) {
     for (Marks* marks : {&scratch.queued, &scratch.walked, &scratch.in_cluster}) {
         marks->grow(tets);
     }
-    for (Marks* marks : {&scratch.changed, &scratch.relisted, &scratch.reached}) {
+    for (Marks* marks : {&scratch.changed, &scratch.relisted, &scratch.hung, &scratch.reached}) {
         marks->grow(copies);
     }
     scratch.walked_pairs.grow(4 * copies);

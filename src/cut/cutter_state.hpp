@@ -73,6 +73,7 @@ struct Scratch {
     std::vector<Index> elements = {};
     Marks changed = {};      // copies whose fraction or weight changed
     Marks walked_pairs = {}; // copy and corner
+    Marks hung = {};         // copies that hang on a touched node
     struct Part {
         std::size_t begin = 0, end = 0; // rows of part_tets
         double volume = 0;

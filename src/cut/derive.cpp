@@ -214,6 +214,7 @@ void write_class(Cutter& cutter, const Scratch::NodeClass& found, Index node, De
     for (const Index pair : pairs) {
         const Index copy = pair / 4;
         const std::size_t corner = face_of(pair);
+        if (cutter.scratch.hung.set(copy)) { delta.touched_copies.push_back(copy); }
         if (cutter.mesh.copy_node[row(copy)][corner] == node) { continue; }
         cutter.mesh.copy_node.edit(row(copy))[corner] = node;
         delta.corners.push_back({copy, static_cast<Index>(corner), node});
@@ -226,6 +227,7 @@ void write_class(Cutter& cutter, const Scratch::NodeClass& found, Index node, De
 /// The heaviest of the classes that a node fell into keeps the node, every other gets a new one.
 void assign_nodes(Cutter& cutter, Delta& delta, CutReport& report) {
     std::vector<Scratch::NodeClass>& classes = cutter.scratch.classes;
+    cutter.scratch.hung.clear(cutter.mesh.copy_node.size());
     std::sort(classes.begin(), classes.end(), [](const Scratch::NodeClass& a, const Scratch::NodeClass& b) {
         if (a.node != b.node) { return a.node < b.node; }
         return a.mass != b.mass ? a.mass > b.mass : a.begin < b.begin;

@@ -40,8 +40,9 @@ struct Delta {
     std::vector<NewCopy> copies;
     std::vector<NewNode> nodes;
     std::vector<Corner> corners;
-    std::vector<Index> weighed;       // copies, old and new, whose weight changed
-    std::vector<Index> touched_nodes; // old and new, whose mass, home or hold changed
+    std::vector<Index> weighed;        // copies, old and new, whose weight changed
+    std::vector<Index> touched_nodes;  // old and new, whose mass, home or hold changed
+    std::vector<Index> touched_copies; // that hang on those, each once
 
     void clear() {
         copies.clear();
@@ -49,6 +50,7 @@ struct Delta {
         corners.clear();
         weighed.clear();
         touched_nodes.clear();
+        touched_copies.clear();
     }
 };
 

@@ -14,23 +14,8 @@ namespace {
 /// Room for one more copy: a neutral lane.
 Index append_lane(Elements& elements) {
     const Index copy = elements.count++;
-    if (copy % lanes == 0) {
-        elements.blocks.push_back(ElementBlock{});
-        elements.forces.push_back(ForceBlock{});
-    }
+    if (copy % lanes == 0) { elements.blocks.push_back(ElementBlock{}); }
     return copy;
-}
-
-Index node_of_slot(const Elements& elements, Index slot) {
-    const Index copy = slot / 4;
-    return elements.blocks[row(copy / lanes)].node[slot % 4][copy % lanes];
-}
-
-void push_front(Elements& elements, Index slot) {
-    Index& first = elements.first_slot[row(node_of_slot(elements, slot))];
-    RESECT_ASSERT(first == -1 || first > slot);
-    elements.next_slot[row(slot)] = first;
-    first = slot;
 }
 
 } // namespace
@@ -141,34 +126,6 @@ Tet corners(const Elements& elements, Index copy) {
     const ElementBlock& block = elements.blocks[row(copy / lanes)];
     const Index lane = copy % lanes;
     return {block.node[0][lane], block.node[1][lane], block.node[2][lane], block.node[3][lane]};
-}
-
-void link_corners(Elements& elements, Index node_count) {
-    elements.first_slot.assign(row(node_count), -1);
-    elements.next_slot.assign(row(4 * elements.count), -1);
-    for (Index slot = 4 * elements.count - 1; slot >= 0; --slot) {
-        push_front(elements, slot);
-    }
-}
-
-void relink_corners(Elements& elements, std::span<const Index> nodes, Index node_count) {
-    elements.first_slot.resize(row(node_count), -1);
-    std::vector<Index> slots;
-    for (const Index node : nodes) {
-        Index& first = elements.first_slot[row(node)];
-        for (Index slot = first; slot >= 0; slot = elements.next_slot[row(slot)]) {
-            slots.push_back(slot);
-        }
-        first = -1; // a node that is listed twice gives its corners once
-    }
-    for (Index slot = Index(elements.next_slot.size()); slot < 4 * elements.count; ++slot) {
-        slots.push_back(slot);
-    }
-    elements.next_slot.resize(row(4 * elements.count), -1);
-    std::sort(slots.begin(), slots.end(), std::greater<>());
-    for (const Index slot : slots) {
-        push_front(elements, slot);
-    }
 }
 
 } // namespace resect

@@ -24,20 +24,10 @@ struct alignas(64) ElementBlock {
     float viscous_time[lanes];    // s
 };
 
-/// What element_forces leaves for node_update: the nodal forces of 16 copies, N.
-struct alignas(64) ForceBlock {
-    float force[4][3][lanes];
-};
-
-/// The element copies as the step sees them.
+/// The element copies, by number; the step works on the same in another order (fem/packing.hpp).
 struct Elements {
     Index count = 0;
     std::vector<ElementBlock> blocks;
-    std::vector<ForceBlock> forces; // scratch of a step
-    /// Corners by node: slot 4 * copy + corner of a node's first corner, and of the next after each; -1 ends.
-    /// Ascending, so that sums do not depend on the history of cuts.
-    std::vector<Index> first_slot; // [node]
-    std::vector<Index> next_slot;  // [4 * copy + corner]
 };
 
 /// Rest data of an element, in double precision; never changes (paper III.C, pre-computation 1).
@@ -62,7 +52,7 @@ struct CopyOptions {
 /// Appends a copy with everything precomputed for its element.
 void append_copy(Elements& elements, const RestElement& rest, const Material& material,
                  const CopyOptions& options);
-/// Computes everything of a copy anew, without touching the lists by node.
+/// Computes everything of a copy anew.
 void set_copy(Elements& elements, Index copy, const RestElement& rest, const Material& material,
               const CopyOptions& options);
 /// Appends a copy of a copy: memory is copied, nothing is computed (the paper's method 1).
@@ -72,14 +62,7 @@ void set_weight(Elements& elements, Index copy, double weight, double volume);
 /// What the law is told of a copy: its material's, but for what a caller made of it.
 void set_moduli(Elements& elements, Index copy, const Moduli& moduli);
 Moduli moduli_of(const Elements& elements, Index copy);
-/// Sets one corner's node without touching the lists by node.
 void set_corner(Elements& elements, Index copy, Index corner, Index node);
 Tet corners(const Elements& elements, Index copy);
-
-/// Builds the lists by node from scratch.
-void link_corners(Elements& elements, Index node_count);
-/// Mends the lists by node after set_corner and after copies were appended. `nodes` are all nodes that a
-/// corner left or came to, corners of new copies included; `node_count` is that of now.
-void relink_corners(Elements& elements, std::span<const Index> nodes, Index node_count);
 
 } // namespace resect

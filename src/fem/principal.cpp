@@ -8,30 +8,22 @@
 namespace resect {
 namespace {
 
-double determinant(const Symmetric& A) {
+double determinant(const Symmetric<double>& A) {
     const auto& [d, o] = A;
     return d[0] * (d[1] * d[2] - o[0] * o[0]) - o[2] * (o[2] * d[2] - o[0] * o[1]) +
            o[1] * (o[2] * o[0] - d[1] * o[1]);
 }
 
-Symmetric right_cauchy_green_minus_1(const Matrix3<double>& H) {
-    const auto entry = [&](int i, int j) {
-        return H.at[i][j] + H.at[j][i] + H.at[0][i] * H.at[0][j] + H.at[1][i] * H.at[1][j] +
-               H.at[2][i] * H.at[2][j];
-    };
-    return {{entry(0, 0), entry(1, 1), entry(2, 2)}, {entry(1, 2), entry(0, 2), entry(0, 1)}};
-}
-
 } // namespace
 
 // The trigonometric solution of the characteristic cubic of A, shifted and scaled.
-Vec3 eigenvalues(const Symmetric& A) {
+Vec3 eigenvalues(const Symmetric<double>& A) {
     const auto& [d, o] = A;
     const double mean = (d[0] + d[1] + d[2]) / 3;
     const Vec3 shifted = d - Vec3{mean, mean, mean};
     const double scale = std::sqrt((dot(shifted, shifted) + 2 * dot(o, o)) / 6);
     if (!(scale > 0)) { return {mean, mean, mean}; }
-    const Symmetric unit = {(1 / scale) * shifted, (1 / scale) * o};
+    const Symmetric<double> unit = {(1 / scale) * shifted, (1 / scale) * o};
     const double angle = std::acos(std::clamp(determinant(unit) / 2, -1.0, 1.0)) / 3;
     const double first = 2 * std::cos(angle);
     const double last = 2 * std::cos(angle + 2 * std::numbers::pi / 3);
@@ -80,7 +72,7 @@ TangentBound bound_tangent(const Stretches& stretches, const Moduli& m) {
     const auto pair = [&](std::size_t i, std::size_t j, std::size_t k) {
         return 2 * W.I1 + 2 * W.I2 * l[k] * l[k] + std::abs(W.J * l[k] + 2 * W.I2 * l[i] * l[j]);
     };
-    const Symmetric hessian = {{on(0), on(1), on(2)}, {off(1, 2, 0), off(0, 2, 1), off(0, 1, 2)}};
+    const Symmetric<double> hessian = {{on(0), on(1), on(2)}, {off(1, 2, 0), off(0, 2, 1), off(0, 1, 2)}};
     const double pairs = std::max({0.0, pair(1, 2, 0), pair(0, 2, 1), pair(0, 1, 2)});
     return {share, std::max(eigenvalues(hessian)[0], pairs)};
 }

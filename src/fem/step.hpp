@@ -10,17 +10,9 @@
 
 #include "base/vec.hpp"
 #include "fem/elements.hpp"
+#include "fem/packing.hpp"
 
 namespace resect {
-
-/// State and constants of the simulation nodes, [node]. Velocity is that of half a step before.
-struct NodeArrays {
-    std::vector<Vec3f> rest, displacement, velocity; // m, m, m/s
-    std::vector<Vec3f> next_displacement,
-        next_velocity;                     // written by node_update; swapped in once found sound
-    std::vector<Vec3f> load;               // N, without gravity
-    std::vector<float> mass, inverse_mass; // kg, 1/kg; inverse 0: held or prescribed
-};
 
 struct StepConstants {
     float time_step = 0; // s
@@ -29,28 +21,30 @@ struct StepConstants {
 };
 
 /// Sums over a range of nodes, in node order. Works are over the step from half a step before to half a step
-/// after, at the mean of both velocities; for free nodes the change of `kinetic` is then the work of gravity
-/// and loads less internal_work and damping_work, to rounding, whatever the step.
+/// after, at the mean of both velocities; for free nodes the change of kinetic energy is then the work of
+/// gravity and loads less internal_work and damping_work, to rounding, whatever the step.
 struct StepSums {
     double internal_work = 0; // J, that the internal forces took (elastic and viscous), held nodes included
     double damping_work = 0;  // J, that mass-proportional damping took
-    double kinetic = 0;       // J, at the half step after
-    float speed_squared = 0;  // largest of free nodes; NaN if anything is not finite
+    float speed_squared = 0;  // largest along an axis, of free nodes; NaN if anything is not finite
 };
+StepSums operator+(const StepSums& a, const StepSums& b);
 
-/// Deformation gradient, second Piola-Kirchhoff stress and nodal forces of the copies in blocks [begin, end)
-/// (paper III.A, equations 2 to 5).
-void element_forces(Elements& elements, const NodeArrays& nodes, Range blocks);
+/// Deformation, stress and nodal forces of the copies of a part (paper III.A, equations 2 to 5), at the
+/// positions that node_update and place_node left: x + viscous_time v, which adds strain-rate viscosity of
+/// that time constant to first order.
+void element_forces(const Elements& elements, Packing& packing, Index part);
 
-/// Net forces and central differences for nodes [begin, end): paper III.C, time stepping 2. Reads
-/// displacement and velocity, writes next_displacement and next_velocity.
-StepSums node_update(const Elements& elements, NodeArrays& nodes, const StepConstants& constants,
-                     Range range);
+/// Net forces and central differences for nodes [begin, end), begin a multiple of 8: paper III.C, time
+/// stepping 2. Reads displacement and velocity, writes next_displacement, next_velocity and positions.
+StepSums node_update(Packing& packing, NodeArrays& nodes, const StepConstants& constants, Range range);
 
+/// What a node resists with, N, from the forces that element_forces left.
+Vec3f internal_force(const Packing& packing, Index node);
 /// Gravity and load on a node, N.
 Vec3 applied_force(const NodeArrays& nodes, const StepConstants& constants, Index node);
-/// Applied less internal force on a node, N, from the forces that element_forces left.
-Vec3 net_force(const Elements& elements, const NodeArrays& nodes, const StepConstants& constants, Index node);
+/// Applied less internal force on a node, N.
+Vec3 net_force(const Packing& packing, const NodeArrays& nodes, const StepConstants& constants, Index node);
 
 /// Deformation of the copies, looked at every few steps.
 struct StrainCheck {
@@ -63,6 +57,10 @@ struct StrainCheck {
 /// unless it is empty, by 1 those that are not is_trusted, by 0 the others.
 StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std::span<const float> density,
                          Range copies, std::span<std::uint8_t> beyond = {});
+/// The same without bounds, and past copies whose stretches are certain to lie among those of `known`: a
+/// small part of the time where few copies are deformed most. Copies begin at a multiple of `lanes`.
+StrainCheck screen_strain(const Elements& elements, const NodeArrays& nodes, const StrainCheck& known,
+                          Range copies, std::span<std::uint8_t> beyond = {});
 /// Of both ranges; the earlier one's copy stays where bounds are equal.
 StrainCheck merge(const StrainCheck& a, const StrainCheck& b);
 

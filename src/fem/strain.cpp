@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.hpp"
 #include "base/index.hpp"
 #include "fem/principal.hpp"
 #include "fem/step.hpp"
@@ -76,6 +77,87 @@ StrainCheck merge(const StrainCheck& a, const StrainCheck& b) {
     both.beyond_range = a.beyond_range + b.beyond_range;
     both.inverted = a.inverted + b.inverted;
     return both;
+}
+
+namespace {
+
+/// Displacements of the corners of 16 copies less those of corner 0, m.
+struct alignas(64) RelativeBlock {
+    float at[3][3][lanes];
+};
+
+void gather(RelativeBlock& to, const ElementBlock& block, std::span<const Vec3f> displacement) {
+    for (Index lane = 0; lane < lanes; ++lane) {
+        const Vec3f& base = displacement[row(block.node[0][lane])];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3f u = displacement[row(block.node[k + 1][lane])] - base;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                to.at[k][axis][lane] = u[axis];
+            }
+        }
+    }
+}
+
+struct alignas(64) Suspects {
+    int copy[lanes]; // 1: may have left the trusted range or the known stretches
+};
+
+/// With E = C - 1 of mean p and deviator d, squared stretches lie within 1 + p -+ sqrt(2/3) |d|.
+[[gnu::flatten]] void find_suspects(Suspects& __restrict suspects, const ElementBlock& __restrict block,
+                                    const RelativeBlock& __restrict u, float above, float below) {
+    constexpr float margin = 1e-4F;
+    for (int lane = 0; lane < lanes; ++lane) {
+        float relative[3][3], gradient[3][3];
+        for (int k = 0; k < 3; ++k) {
+            for (int axis = 0; axis < 3; ++axis) {
+                relative[k][axis] = u.at[k][axis][lane];
+                gradient[k][axis] = block.gradient[k][axis][lane];
+            }
+        }
+        const Matrix3<float> H = displacement_gradient(relative, gradient);
+        Invariants<float> now = deformation(H).now;
+        now.volume_change -= margin;
+        now.length_change += margin;
+        now.area_change += margin;
+        const Symmetric<float> E = right_cauchy_green_minus_1(H);
+        const float trace_E = E.diagonal[0] + E.diagonal[1] + E.diagonal[2];
+        const float squares = dot(E.diagonal, E.diagonal) + 2 * dot(E.off_diagonal, E.off_diagonal);
+        const float p = trace_E * (1.0F / 3);
+        const float radius_squared = (squares - trace_E * p) * (2.0F / 3);
+        const float room = above - p < below + p ? above - p : below + p;
+        const bool is_known = (room >= 0) & (radius_squared <= room * room);
+        suspects.copy[lane] = is_known & is_trusted(now) ? 0 : 1;
+    }
+}
+
+} // namespace
+
+StrainCheck screen_strain(const Elements& elements, const NodeArrays& nodes, const StrainCheck& known,
+                          Range copies, std::span<std::uint8_t> beyond) {
+    RESECT_ASSERT(copies.begin % lanes == 0);
+    const auto above = static_cast<float>(known.stretch_max * known.stretch_max - 1);
+    const auto below = static_cast<float>(1 - known.stretch_min * std::abs(known.stretch_min));
+    StrainCheck check;
+    RelativeBlock u;
+    Suspects suspects;
+    for (Index first = copies.begin; first < copies.end; first += lanes) {
+        const ElementBlock& block = elements.blocks[row(first / lanes)];
+        gather(u, block, nodes.displacement);
+        find_suspects(suspects, block, u, above, below);
+        for (Index copy = first; copy < std::min(first + lanes, copies.end); ++copy) {
+            if (!beyond.empty()) { beyond[row(copy)] = 0; }
+            if (suspects.copy[copy % lanes] == 0) { continue; }
+            const CopyState state = state_of(elements, nodes.displacement, copy);
+            const Stretches now = principal_stretches(state.at.H);
+            const bool trusted = is_trusted(state.at.now);
+            if (!beyond.empty()) { beyond[row(copy)] = trusted ? 0 : 1; }
+            check = merge(check, {.stretch_min = now.value[2],
+                                  .stretch_max = now.value[0],
+                                  .beyond_range = trusted ? 0 : 1,
+                                  .inverted = now.J <= 0 ? 1 : 0});
+        }
+    }
+    return check;
 }
 
 StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std::span<const float> density,

@@ -40,6 +40,27 @@ void append_nodes(Engine& engine, std::span<const Delta::NewNode> added) {
     }
 }
 
+/// Copies that a cut made, moved to other nodes or weighed anew, in the order of their rows.
+void patch_packing(Engine& engine) {
+    const Delta& delta = engine.delta;
+    for (const Delta::NewCopy& added : delta.copies) {
+        seat_new_copy(engine.packing, engine.elements, engine.nodes, added.copy, added.parent);
+    }
+    const Index first_new = delta.copies.empty() ? engine.elements.count : delta.copies.front().copy;
+    engine.moved.clear();
+    for (const Delta::Corner& corner : delta.corners) {
+        if (corner.copy < first_new) { engine.moved.push_back(corner.copy); }
+    }
+    std::sort(engine.moved.begin(), engine.moved.end());
+    engine.moved.erase(std::unique(engine.moved.begin(), engine.moved.end()), engine.moved.end());
+    for (const Index copy : engine.moved) {
+        reseat_copy(engine.packing, engine.elements, engine.nodes, copy);
+    }
+    for (const Index copy : delta.weighed) {
+        refresh_copy(engine.packing, engine.elements, copy);
+    }
+}
+
 /// Follows a change of S in the arrays that the step works on.
 void apply_delta(Engine& engine, CutReport& report) {
     const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
@@ -63,8 +84,8 @@ void apply_delta(Engine& engine, CutReport& report) {
         set_weight(engine.elements, copy, mesh.copy_weight[row(copy)],
                    engine.model.rest[row(element)].volume);
     }
-    relink_corners(engine.elements, delta.touched_nodes, static_cast<Index>(engine.nodes.mass.size()));
-    update_stiffness(engine, delta.touched_nodes);
+    patch_packing(engine);
+    update_stiffness(engine, delta.touched_copies);
     update_conditions(engine, delta.touched_nodes);
     report.us.derive += watch.lap();
 }
@@ -81,7 +102,6 @@ void sweep_one(Engine& engine, Index blade, const Edge& to, bool first, CutRepor
     apply_delta(engine, report);
     if (adds_energy) {
         engine.work.internal += elastic_energy(engine.elements, engine.nodes.displacement) - elastic;
-        engine.kinetic = kinetic_energy(engine.nodes);
     }
 }
 

@@ -64,6 +64,7 @@ void update_conditions(Engine& engine, std::span<const Index> touched) {
         nodes.mass[node] = static_cast<float>(mesh.node_mass[node]);
         nodes.inverse_mass[node] = mesh.node_held[node] ? 0 : static_cast<float>(1 / mesh.node_mass[node]);
         if (mesh.node_held[node]) { nodes.velocity[node] = {}; }
+        place_node(engine.packing, nodes, touched_node);
     }
     if (!engine.model.loads.empty()) { apply_loads(engine); }
     engine.fixed.resize(nodes.mass.size());

@@ -126,6 +126,7 @@ void build_nodes(Engine& engine, const Motion& initial) {
         engine.classes[row(mesh.node_reference[node])].push_back(static_cast<Index>(node));
     }
     engine.swept = nodes.displacement;
+    engine.packing = build_packing(engine.elements, nodes);
     update_all_conditions(engine);
 }
 
@@ -141,7 +142,6 @@ void build_elements(Engine& engine) {
         engine.copy_density.push_back(static_cast<float>(model.materials[region].density));
         engine.weak.push_back(0);
     }
-    link_corners(engine.elements, static_cast<Index>(mesh.node_reference.size()));
 }
 
 /// Room for what cuts add.
@@ -158,9 +158,8 @@ void reserve_rows(Engine& engine) {
     reserve_ahead(engine.copy_density, reserved);
     reserve_ahead(engine.weak, reserved);
     reserve_ahead(engine.elements.blocks, reserved);
-    reserve_ahead(engine.elements.forces, reserved);
-    reserve_ahead(engine.elements.first_slot, reserved);
-    reserve_ahead(engine.elements.next_slot, reserved);
+    reserve_ahead(engine.packing.seats, reserved);
+    reserve_ahead(engine.packing.first_slot, reserved);
 }
 
 } // namespace
@@ -203,7 +202,6 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup) {
     update_all_stiffness(*engine);
     reserve_rows(*engine);
     engine->elastic_start = elastic_energy(engine->elements, engine->nodes.displacement);
-    engine->kinetic = kinetic_energy(engine->nodes);
     check_strain_now(*engine);
     return engine;
 }

@@ -14,13 +14,15 @@
 #include "cut/cutter.hpp"
 #include "cut/saved_state.hpp"
 #include "fem/elements.hpp"
+#include "fem/packing.hpp"
 #include "fem/step.hpp"
 
 namespace resect {
 
-inline constexpr double safety_factor = 0.6;       // of the rest bound (docs/method.md, "The step")
-inline constexpr double viscous_share = 0.1;       // automatic viscous time over the rest bound
-inline constexpr std::int64_t check_interval = 50; // steps between two looks at the strain
+inline constexpr double safety_factor = 0.6;         // of the rest bound (docs/method.md, "The step")
+inline constexpr double viscous_share = 0.1;         // automatic viscous time over the rest bound
+inline constexpr std::int64_t check_interval = 50;   // steps between two looks at the strain
+inline constexpr std::int64_t bound_interval = 1000; // and at the live bound, a multiple of it
 
 /// Constant after creation.
 struct Model {
@@ -57,6 +59,7 @@ struct Work {
 /// What steps, commands and cuts change, but for the cutter's part: a snapshot is a copy of both.
 struct EngineState {
     Elements elements = {};
+    Packing packing = {}; // of elements and nodes, for the step
     NodeArrays nodes = {};
     StepConstants constants = {};
 
@@ -70,7 +73,6 @@ struct EngineState {
 
     Work work = {};
     double elastic_start = 0; // J
-    double kinetic = 0;       // J, at the last half step
     Strain strain = {};
     double live_bound = 0; // s
 
@@ -98,6 +100,7 @@ struct Engine : EngineState {
     std::vector<StrainCheck> strain_parts = {}; // scratch of a check [chunk]
     std::vector<std::uint8_t> left_range = {};  // scratch of a check [copy] 1: beyond the trusted range
     Delta delta = {};                           // scratch of a sweep
+    std::vector<Index> moved = {};              // scratch of a sweep: old copies on other nodes
 
     explicit Engine(int threads) : workers(threads) {}
 };
@@ -121,8 +124,8 @@ double least_step_bound(const Model& model);
 void append_quantities(Engine& engine, std::span<const Delta::NewCopy> copies);
 
 // stiffness.cpp
-/// Moduli of the copies at the listed nodes, after S has changed there.
-void update_stiffness(Engine& engine, std::span<const Index> touched);
+/// Moduli of the listed copies, after S has changed at their nodes.
+void update_stiffness(Engine& engine, std::span<const Index> copies);
 /// Of all copies, computed anew.
 void update_all_stiffness(Engine& engine);
 /// Weakens for good the copies that the last check found beyond the trusted range.
@@ -137,6 +140,8 @@ bool step_motion(Engine& engine);
 
 // watch.cpp
 void check_strain_now(Engine& engine);
+/// What is due of both looks in this step.
+void check_strain_if_due(Engine& engine);
 /// The element that went wrong in a step that step_motion refused, and why, in words.
 Index find_diverged_element(const Engine& engine, std::string& reason);
 

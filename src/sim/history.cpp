@@ -13,7 +13,7 @@ constexpr std::size_t bytes_at_most = std::size_t{1} << 28U;
 
 std::size_t bytes_of(const SavedEngine& saved) {
     return bytes_of(*saved.cutter) + sizeof(ElementBlock) * saved.state.elements.blocks.size() +
-           150 * saved.state.nodes.mass.size();
+           bytes_of(saved.state.packing) + 120 * saved.state.nodes.mass.size();
 }
 
 } // namespace

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int calm_steps = 50;      // in a row below the residual
 constexpr int averaged_steps = 500; // of the running mean of forces
+constexpr double past_peak = 0.8;   // of the peak: rounding alone moves the kinetic energy up and down
 constexpr double easing_time = 2;   // s, at most a third of the time given
 
 /// Nodes that count: free ones of pieces that something holds, be it fixed or prescribed. Other pieces fall
@@ -46,8 +47,8 @@ public:
     explicit Easing(Engine& engine) : load_(engine.nodes.load), missing_(load_.size()) {
         compute_forces(engine);
         for (std::size_t node = 0; node < missing_.size(); ++node) {
-            missing_[node] = to_float(
-                net_force(engine.elements, engine.nodes, engine.constants, static_cast<Index>(node)));
+            missing_[node] =
+                to_float(net_force(engine.packing, engine.nodes, engine.constants, static_cast<Index>(node)));
         }
     }
     /// From share 0, where all is in balance, to share 1, where the load is the body's own.
@@ -73,7 +74,7 @@ public:
         watched_ = std::min(watched_ + 1, averaged_steps);
         double net = 0, applied = 0;
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
-            const Vec3 now = net_force(engine.elements, engine.nodes, engine.constants, nodes_[i]);
+            const Vec3 now = net_force(engine.packing, engine.nodes, engine.constants, nodes_[i]);
             mean_[i] += (1.0 / watched_) * (now - mean_[i]);
             const Vec3 force = applied_force(engine.nodes, engine.constants, nodes_[i]);
             net += dot(mean_[i], mean_[i]);
@@ -102,15 +103,15 @@ public:
 
     void watch(Engine& engine) {
         const double now = kinetic(engine);
-        if (now < last_) { stop(engine); }
-        last_ = now < last_ ? 0 : now;
+        const bool is_past = now < past_peak * peak_;
+        if (is_past) { stop(engine); }
+        peak_ = is_past ? 0 : std::max(peak_, now);
     }
     void stop(Engine& engine) const {
-        const double taken = kinetic(engine);
-        engine.work.settling += taken;
-        engine.kinetic -= taken;
+        engine.work.settling += kinetic(engine);
         for (const Index node : nodes_) {
             engine.nodes.velocity[row(node)] = {};
+            place_node(engine.packing, engine.nodes, node);
         }
     }
 
@@ -125,7 +126,7 @@ private:
     }
 
     std::vector<Index> nodes_;
-    double last_ = 0; // J
+    double peak_ = 0; // J, since the last stop
 };
 
 /// Steps until calm; the report says how it ended.
@@ -159,7 +160,7 @@ void step_to_rest(Engine& engine, double residual, double at_most, StepReport& r
         if (share == 1) { ratio = balance.watch(engine); }
         calm = share == 1 && ratio <= residual ? calm + 1 : 0;
         damping.watch(engine);
-        if (engine.step % check_interval == 0) { check_strain_now(engine); }
+        check_strain_if_due(engine);
     }
     easing.ease(engine, 1);
     damping.stop(engine);

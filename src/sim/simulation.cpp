@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/hash.hpp"
+#include "fem/choose_kernels.hpp"
 #include "sim/engine.hpp"
 #include "sim/snapshot.hpp"
 
@@ -71,7 +72,7 @@ StepReport Simulation::advance(double seconds) {
         if (engine.step % stride == 0 || (left == 0 && is_under_way(engine))) {
             sweep_blades(engine, (left + stride - 1) / stride + 1, report.cut);
         }
-        if (engine.step % check_interval == 0) { check_strain_now(engine); }
+        check_strain_if_due(engine);
     }
     report.cut.pieces = count_pieces(*engine.cutter);
     return report;
@@ -153,7 +154,7 @@ Energies Simulation::energies() const {
     const NodeArrays& nodes = engine.nodes;
     const Vec3 gravity = to_double(engine.constants.gravity);
     const auto half_step = static_cast<float>(engine.time_step / 2);
-    Energies energies{.kinetic = engine.kinetic};
+    Energies energies{.kinetic = kinetic_energy(nodes)};
     std::vector<Vec3f> behind(nodes.mass.size());
     for (std::size_t node = 0; node < behind.size(); ++node) {
         behind[node] = nodes.displacement[node] - half_step * nodes.velocity[node];
@@ -178,15 +179,9 @@ double Simulation::time() const {
     return static_cast<double>(engine_->step - engine_->clock_start) * engine_->time_step;
 }
 
-const char* instruction_set() {
-#if defined(__x86_64__)
-    return "sse2";
-#elif defined(__aarch64__)
-    return "neon";
-#else
-    return "scalar";
-#endif
-}
+const char* instruction_set() { return kernels().name; }
+
+bool choose_instruction_set(const std::string& name) { return choose_kernels(name); }
 
 std::int64_t Simulation::steps() const { return engine_->step; }
 

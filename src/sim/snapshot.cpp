@@ -90,14 +90,37 @@ template <class Archive>
 void archive_elements(Archive& archive, Elements& elements) {
     archive.value(elements.count);
     archive.rows(elements.blocks);
-    archive.rows(elements.forces);
-    archive.rows(elements.first_slot);
-    archive.rows(elements.next_slot);
+}
+
+template <class Archive>
+void archive_packing(Archive& archive, Packing& packing) {
+    archive_each(archive, packing.parts, [&](Part& part) {
+        archive.value(part.viscous_time);
+        archive.value(part.first_slot);
+        archive.value(part.slots);
+        archive.value(part.room);
+        archive.rows(part.blocks);
+        archive.rows(part.nodes);
+        archive.rows(part.tets);
+        archive.rows(part.copies);
+        archive.rows(part.spare);
+    });
+    archive.rows(packing.seats);
+    archive.value(packing.quanta_a_metre);
+    archive.rows(packing.rest);
+    archive.rows(packing.position);
+    archive.rows(packing.force);
+    for (std::vector<Index>* rows :
+         {&packing.slot_node, &packing.slot_part, &packing.first_slot, &packing.next_slot}) {
+        archive.rows(*rows);
+    }
+    archive.value(packing.one_viscous_time);
 }
 
 template <class Archive>
 void archive_state(Archive& archive, EngineState& state) {
     archive_elements(archive, state.elements);
+    archive_packing(archive, state.packing);
     archive_nodes(archive, state.nodes);
     archive.value(state.constants);
     archive_prescribed(archive, state.prescribed);
@@ -115,7 +138,6 @@ void archive_state(Archive& archive, EngineState& state) {
     archive.value(state.carried);
     archive.value(state.work);
     archive.value(state.elastic_start);
-    archive.value(state.kinetic);
     archive.value(state.strain);
     archive.value(state.live_bound);
     archive.rows(state.fixed);

@@ -52,6 +52,7 @@ void set_stiffness(Engine& engine, Index copy) {
     const double borne = least_stiffness + stiffness_slope * (support / weight - 1);
     const double kept = engine.weak[row(copy)] != 0 ? std::min(1.0, borne) : 1;
     set_moduli(engine.elements, copy, {kept * m.mu, kept * m.bulk, raised * m.wall});
+    if (engine.weak[row(copy)] != 0) { refresh_copy(engine.packing, engine.elements, copy); }
 }
 
 bool is_weakened(const Engine& engine, Index copy) {
@@ -63,19 +64,14 @@ bool is_weakened(const Engine& engine, Index copy) {
 
 } // namespace
 
-void update_stiffness(Engine& engine, std::span<const Index> touched) {
-    const Elements& elements = engine.elements;
-    for (const Index node : touched) {
-        for (Index slot = elements.first_slot[row(node)]; slot >= 0; slot = elements.next_slot[row(slot)]) {
-            const Index copy = slot / 4;
-            // In the range a wall stores nothing; what changes in copies that have left it is work done on
-            // them.
-            const bool stores = engine.weak[row(copy)] != 0;
-            const double before = stores ? elastic_energy(elements, engine.nodes.displacement, copy) : 0;
-            set_stiffness(engine, copy);
-            if (!stores) { continue; }
-            engine.work.internal += elastic_energy(elements, engine.nodes.displacement, copy) - before;
-        }
+void update_stiffness(Engine& engine, std::span<const Index> copies) {
+    for (const Index copy : copies) {
+        // In the range a wall stores nothing; what changes in copies that have left it is work done on them.
+        const bool stores = engine.weak[row(copy)] != 0;
+        const auto stored = [&] { return elastic_energy(engine.elements, engine.nodes.displacement, copy); };
+        const double before = stores ? stored() : 0;
+        set_stiffness(engine, copy);
+        if (stores) { engine.work.internal += stored() - before; }
     }
 }
 

@@ -37,28 +37,51 @@ double present_volume(const Engine& engine, Index copy) {
     return signed_volume(at[0], at[1], at[2], at[3]);
 }
 
-} // namespace
-
-void check_strain_now(Engine& engine) {
+/// `look` is called for ranges of copies.
+template <class Look>
+StrainCheck over_all_copies(Engine& engine, Look look) {
     const Index chunks = chunk_count(copies_a_chunk, engine.elements.count);
     engine.strain_parts.resize(static_cast<std::size_t>(chunks));
     engine.left_range.resize(row(engine.elements.count));
     engine.workers.run(chunks, [&](Index chunk) {
         const auto [begin, end] = chunk_range(chunk, copies_a_chunk, engine.elements.count);
-        engine.strain_parts[row(chunk)] =
-            check_strain(engine.elements, engine.nodes, engine.copy_density, {begin, end}, engine.left_range);
+        engine.strain_parts[row(chunk)] = look({begin, end});
     });
-    weaken_strained(engine);
-    StrainCheck now;
+    StrainCheck all;
     for (const StrainCheck& part : engine.strain_parts) {
-        now = merge(now, part);
+        all = merge(all, part);
     }
-    Strain& strain = engine.strain;
+    return all;
+}
+
+void take_note(Strain& strain, const StrainCheck& now) {
     strain.stretch_min = std::min(strain.stretch_min, now.stretch_min);
     strain.stretch_max = std::max(strain.stretch_max, now.stretch_max);
     strain.elements_beyond_range = std::max(strain.elements_beyond_range, now.beyond_range);
     strain.elements_inverted = now.inverted;
+}
+
+} // namespace
+
+void check_strain_now(Engine& engine) {
+    const StrainCheck now = over_all_copies(engine, [&](Range copies) {
+        return check_strain(engine.elements, engine.nodes, engine.copy_density, copies, engine.left_range);
+    });
+    weaken_strained(engine);
+    take_note(engine.strain, now);
     engine.live_bound = now.live_bound;
+}
+
+void check_strain_if_due(Engine& engine) {
+    if (engine.step % check_interval != 0) { return; }
+    if (engine.step % bound_interval == 0) { return check_strain_now(engine); }
+    const StrainCheck known = {.stretch_min = engine.strain.stretch_min,
+                               .stretch_max = engine.strain.stretch_max};
+    const StrainCheck now = over_all_copies(engine, [&](Range copies) {
+        return screen_strain(engine.elements, engine.nodes, known, copies, engine.left_range);
+    });
+    weaken_strained(engine);
+    take_note(engine.strain, now);
 }
 
 Index find_diverged_element(const Engine& engine, std::string& reason) {

@@ -16,12 +16,13 @@ struct TestBody {
     std::vector<RestElement> rest;
     Elements elements;
     NodeArrays nodes;
+    Packing packing;
 };
 
 inline Index node_count(const TestBody& body) { return Index(body.mesh.nodes.size()); }
 
 inline TestBody make_test_body(TetMesh mesh, const Material& material, double viscous_time = 0) {
-    TestBody body{std::move(mesh), material, {}, {}, {}};
+    TestBody body{std::move(mesh), material, {}, {}, {}, {}};
     body.rest = build_rest(body.mesh);
     const std::size_t count = body.mesh.nodes.size();
     std::vector<double> mass(count, 0.0);
@@ -32,7 +33,6 @@ inline TestBody make_test_body(TetMesh mesh, const Material& material, double vi
             mass[row(n)] += material.density * body.rest[e].volume / 4;
         }
     }
-    link_corners(body.elements, Index(count));
     NodeArrays& nodes = body.nodes;
     for (const Vec3& x : body.mesh.nodes) {
         nodes.rest.push_back(to_float(x));
@@ -45,6 +45,7 @@ inline TestBody make_test_body(TetMesh mesh, const Material& material, double vi
         nodes.mass.push_back(static_cast<float>(m));
         nodes.inverse_mass.push_back(static_cast<float>(1 / m));
     }
+    body.packing = build_packing(body.elements, nodes);
     return body;
 }
 
@@ -63,28 +64,25 @@ inline void hold_where(TestBody& body, const std::function<bool(const Vec3&)>& h
 }
 
 inline void all_forces(TestBody& body) {
-    element_forces(body.elements, body.nodes, {0, Index(body.elements.blocks.size())});
+    place_all_nodes(body.packing, body.nodes);
+    for (Index part = 0; part < Index(body.packing.parts.size()); ++part) {
+        element_forces(body.elements, body.packing, part);
+    }
 }
 
 inline StepSums step(TestBody& body, const StepConstants& constants) {
     all_forces(body);
-    const StepSums sums = node_update(body.elements, body.nodes, constants, {0, node_count(body)});
+    const StepSums sums = node_update(body.packing, body.nodes, constants, {0, node_count(body)});
     std::swap(body.nodes.displacement, body.nodes.next_displacement);
     std::swap(body.nodes.velocity, body.nodes.next_velocity);
     return sums;
 }
 
-/// Net internal force by node, N, summed in double from the forces of the copies.
+/// Net internal force by node, N.
 inline std::vector<Vec3> nodal_forces(const TestBody& body) {
-    std::vector<Vec3> force(body.mesh.nodes.size(), Vec3{});
-    for (Index copy = 0; copy < body.elements.count; ++copy) {
-        const Tet tet = corners(body.elements, copy);
-        const ForceBlock& block = body.elements.forces[row(copy / lanes)];
-        for (std::size_t corner = 0; corner < 4; ++corner) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                force[row(tet[corner])][axis] += double(block.force[corner][axis][copy % lanes]);
-            }
-        }
+    std::vector<Vec3> force;
+    for (Index node = 0; node < node_count(body); ++node) {
+        force.push_back(to_double(internal_force(body.packing, node)));
     }
     return force;
 }

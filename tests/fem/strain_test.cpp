@@ -117,8 +117,8 @@ TEST_CASE("eigenvalues of a symmetric matrix have its invariants") {
     std::mt19937 engine(1);
     std::normal_distribution<double> normal;
     for (int i = 0; i < 100; ++i) {
-        const Symmetric A = {{normal(engine), normal(engine), normal(engine)},
-                             {normal(engine), normal(engine), normal(engine)}};
+        const Symmetric<double> A = {{normal(engine), normal(engine), normal(engine)},
+                                     {normal(engine), normal(engine), normal(engine)}};
         const Vec3 e = eigenvalues(A);
         CHECK(e[0] >= e[1]);
         CHECK(e[1] >= e[2]);

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/index.hpp"
+#include "fem/fans.hpp"
+#include "fem/pack_rows.hpp"
+
+namespace resect {
+namespace {
+
+constexpr Index copies_a_part = 3000;
+constexpr Index parts_at_most = 64;
+constexpr Index copies_a_leaf = 32; // of the order within a part
+
+float viscous_time_of(const Elements& elements, Index copy) {
+    return elements.blocks[row(copy / lanes)].viscous_time[copy % lanes];
+}
+
+/// A copy and where it is.
+struct Place {
+    Index copy;
+    Vec3f at; // m, four times its centre
+};
+
+std::vector<Place> find_places(const Elements& elements, const NodeArrays& nodes,
+                               std::span<const Index> copies) {
+    std::vector<Place> places;
+    places.reserve(copies.size());
+    for (const Index copy : copies) {
+        Vec3f sum = {};
+        for (const Index node : corners(elements, copy)) {
+            sum += nodes.rest[row(node)];
+        }
+        places.push_back({copy, sum});
+    }
+    return places;
+}
+
+/// Where the first `count` copies along the longest axis end.
+void halve(std::span<Place> places, std::size_t count) {
+    Vec3f lo = places.front().at, hi = lo;
+    for (const Place& place : places) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            lo[axis] = std::min(lo[axis], place.at[axis]);
+            hi[axis] = std::max(hi[axis], place.at[axis]);
+        }
+    }
+    const Vec3f size = hi - lo;
+    const auto axis = static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
+    std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count), places.end(),
+                     [axis](const Place& p, const Place& q) {
+                         return p.at[axis] != q.at[axis] ? p.at[axis] < q.at[axis] : p.copy < q.copy;
+                     });
+}
+
+/// So that copies that follow one another lie together.
+void sort_by_place(std::span<Place> places) {
+    if (places.size() <= row(copies_a_leaf)) {
+        std::sort(places.begin(), places.end(),
+                  [](const Place& p, const Place& q) { return p.copy < q.copy; });
+        return;
+    }
+    const std::size_t half = places.size() / 2;
+    halve(places, half);
+    sort_by_place(places.first(half));
+    sort_by_place(places.subspan(half));
+}
+
+void split(std::span<Place> places, Index parts, std::vector<std::vector<Index>>& to) {
+    if (parts > 1) {
+        const Index low = parts / 2;
+        const std::size_t count = places.size() * row(low) / row(parts);
+        halve(places, count);
+        split(places.first(count), low, to);
+        split(places.subspan(count), parts - low, to);
+        return;
+    }
+    sort_by_place(places);
+    std::vector<Index>& copies = to.emplace_back();
+    for (const Place& place : places) {
+        copies.push_back(place.copy);
+    }
+}
+
+/// Copies by part, in the order of their places, of one viscous time each.
+std::vector<std::vector<Index>> divide(const Elements& elements, const NodeArrays& nodes) {
+    std::map<float, std::vector<Index>> by_time;
+    for (Index copy = 0; copy < elements.count; ++copy) {
+        by_time[viscous_time_of(elements, copy)].push_back(copy);
+    }
+    std::vector<std::vector<Index>> parts;
+    for (const auto& [time, copies] : by_time) {
+        std::vector<Place> places = find_places(elements, nodes, copies);
+        const auto count = static_cast<Index>(copies.size()) / copies_a_part;
+        split(places, std::clamp<Index>(count, 1, parts_at_most), parts);
+    }
+    return parts;
+}
+
+/// A power of two, so that scaling rounds nothing: the longest edge has 2^25 to 2^26 quanta, and may grow to
+/// 32 times its length before differences are no longer told apart.
+float choose_quanta(const Elements& elements, const NodeArrays& nodes) {
+    constexpr int edge_bits = 26;
+    float longest = 0;
+    for (Index copy = 0; copy < elements.count; ++copy) {
+        const Tet tet = corners(elements, copy);
+        for (const auto& edge : edge_corners) {
+            const Vec3f along = nodes.rest[row(tet[row(edge[1])])] - nodes.rest[row(tet[row(edge[0])])];
+            longest = std::max(longest, dot(along, along));
+        }
+    }
+    return std::ldexp(1.0F, edge_bits - std::ilogb(std::sqrt(longest)) - 1);
+}
+
+std::vector<Index> find_nodes(const Elements& elements, std::span<const Index> copies) {
+    std::vector<Index> nodes;
+    for (const Index copy : copies) {
+        const Tet tet = corners(elements, copy);
+        nodes.insert(nodes.end(), tet.begin(), tet.end());
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+}
+
+} // namespace
+
+void pack_copies(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part,
+                 std::span<const Index> copies) {
+    std::map<float, std::vector<Index>> by_material;
+    for (const Index copy : copies) {
+        by_material[shear_over_resistance(elements, copy)].push_back(copy);
+    }
+    for (const auto& [ratio, alike] : by_material) {
+        std::vector<Tet> tets;
+        for (const Index copy : alike) {
+            tets.push_back(corners(elements, copy));
+        }
+        std::vector<Fan> fans = cover_with_fans(tets, nodes.rest);
+        for (Fan& fan : fans) {
+            for (Index j = 0; j < fan.length; ++j) {
+                fan.tet[row(j)] = alike[row(fan.tet[row(j)])];
+            }
+        }
+        append_fans(packing, elements, nodes, part, fans, ratio);
+    }
+}
+
+Packing build_packing(const Elements& elements, const NodeArrays& nodes) {
+    Packing packing;
+    packing.seats.resize(row(elements.count));
+    packing.quanta_a_metre = choose_quanta(elements, nodes);
+    packing.first_slot.assign(nodes.rest.size(), -1);
+    const std::vector<std::vector<Index>> parts = divide(elements, nodes);
+    for (const std::vector<Index>& copies : parts) {
+        Part part;
+        part.viscous_time = viscous_time_of(elements, copies.front());
+        packing.one_viscous_time =
+            packing.one_viscous_time &&
+            (packing.parts.empty() || packing.parts.front().viscous_time == part.viscous_time);
+        packing.parts.push_back(std::move(part));
+        const Index index = static_cast<Index>(packing.parts.size()) - 1;
+        const std::vector<Index> used = find_nodes(elements, copies);
+        reserve_slots(packing, index, static_cast<Index>(used.size()));
+        for (const Index node : used) {
+            slot_for(packing, nodes, index, node);
+        }
+        pack_copies(packing, elements, nodes, index, copies);
+    }
+    return packing;
+}
+
+} // namespace resect

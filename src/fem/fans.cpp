@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fem/fans.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "base/index.hpp"
+
+namespace resect {
+namespace {
+
+/// A tet as its edge ab sees it: it lies between faces abc and abd, and (a, b, c, d) is positive.
+struct Link {
+    Index a, b, c, d;
+    Index tet;
+};
+
+struct EdgeRow {
+    Index first = 0, count = 0; // rows of links
+    float length_squared = 0;   // m^2
+};
+
+/// The pair (from, to) of corners in the order that makes (edge, from, to) a positive tet.
+constexpr int across[6][2] = {{2, 3}, {3, 1}, {1, 2}, {0, 3}, {2, 0}, {0, 1}};
+
+std::vector<Link> find_links(std::span<const Tet> tets) {
+    std::vector<Link> links;
+    links.reserve(6 * tets.size());
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+        for (int edge = 0; edge < 6; ++edge) {
+            const auto corner = [&](int k) { return tets[t][row(k)]; };
+            Link link = {corner(edge_corners[edge][0]), corner(edge_corners[edge][1]),
+                         corner(across[edge][0]), corner(across[edge][1]), static_cast<Index>(t)};
+            if (link.a > link.b) {
+                std::swap(link.a, link.b);
+                std::swap(link.c, link.d);
+            }
+            links.push_back(link);
+        }
+    }
+    std::sort(links.begin(), links.end(), [](const Link& p, const Link& q) {
+        return p.a != q.a ? p.a < q.a : p.b != q.b ? p.b < q.b : p.tet < q.tet;
+    });
+    return links;
+}
+
+/// Long edges first.
+std::vector<EdgeRow> find_edges(std::span<const Link> links, std::span<const Vec3f> at) {
+    std::vector<EdgeRow> edges;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+        const Link& link = links[i];
+        if (i == 0 || link.a != links[i - 1].a || link.b != links[i - 1].b) {
+            const Vec3f along = at[row(link.b)] - at[row(link.a)];
+            edges.push_back({static_cast<Index>(i), 0, dot(along, along)});
+        }
+        ++edges.back().count;
+    }
+    // In steps of a part in a thousand, so that rounding does not shuffle edges of equal length.
+    const auto rank = [](const EdgeRow& edge) {
+        int exponent = 0;
+        const float mantissa = std::frexp(edge.length_squared, &exponent);
+        return 1024 * exponent + static_cast<int>(1024 * mantissa);
+    };
+    std::stable_sort(edges.begin(), edges.end(),
+                     [&](const EdgeRow& p, const EdgeRow& q) { return rank(p) > rank(q); });
+    return edges;
+}
+
+class Cover {
+public:
+    Cover(std::span<const Tet> tets, std::span<const Vec3f> at)
+        : links_(find_links(tets)), edges_(find_edges(links_, at)), taken_(tets.size(), 0) {}
+
+    std::vector<Fan> run() {
+        Index longest = 1;
+        for (const EdgeRow& edge : edges_) {
+            longest = std::max(longest, edge.count);
+        }
+        for (Index length = std::min<Index>(longest, fan_longest); length >= 1; --length) {
+            for (EdgeRow& edge : edges_) {
+                take_fans(edge, length);
+            }
+        }
+        std::sort(fans_.begin(), fans_.end(), [](const Fan& p, const Fan& q) {
+            return *std::min_element(p.tet.begin(), p.tet.begin() + p.length) <
+                   *std::min_element(q.tet.begin(), q.tet.begin() + q.length);
+        });
+        return std::move(fans_);
+    }
+
+private:
+    /// Takes what lies free round the edge in fans of at least `length`.
+    void take_fans(EdgeRow& edge, Index length) {
+        if (edge.count < length) { return; }
+        free_.clear();
+        const auto begin = links_.begin() + edge.first;
+        const auto kept = std::remove_if(begin, begin + edge.count,
+                                         [&](const Link& link) { return taken_[row(link.tet)] != 0; });
+        edge.count = static_cast<Index>(kept - begin);
+        if (edge.count < length) { return; }
+        free_.assign(begin, kept);
+        while (!free_.empty()) {
+            const std::vector<Link> chain = take_chain();
+            for (std::size_t at = 0; at + row(length) <= chain.size(); at += row(fan_longest)) {
+                add_fan(std::span(chain).subspan(at, std::min(chain.size() - at, row(fan_longest))));
+            }
+        }
+    }
+
+    /// From a link without a predecessor, or all round.
+    std::vector<Link> take_chain() {
+        const auto has_predecessor = [&](const Link& link) {
+            return std::any_of(free_.begin(), free_.end(),
+                               [&](const Link& other) { return other.d == link.c; });
+        };
+        auto next = std::find_if_not(free_.begin(), free_.end(), has_predecessor);
+        if (next == free_.end()) { next = free_.begin(); }
+        std::vector<Link> chain;
+        while (next != free_.end()) {
+            chain.push_back(*next);
+            free_.erase(next);
+            next = std::find_if(free_.begin(), free_.end(),
+                                [&](const Link& link) { return link.c == chain.back().d; });
+        }
+        return chain;
+    }
+
+    void add_fan(std::span<const Link> chain) {
+        Fan fan;
+        fan.length = static_cast<Index>(chain.size());
+        fan.closed = fan.length > 2 && chain.back().d == chain.front().c;
+        fan.node[0] = chain.front().a;
+        fan.node[1] = chain.front().b;
+        fan.node[2] = chain.front().c;
+        for (std::size_t j = 0; j < chain.size(); ++j) {
+            fan.node[3 + j] = chain[j].d;
+            fan.tet[j] = chain[j].tet;
+            taken_[row(chain[j].tet)] = 1;
+        }
+        fans_.push_back(fan);
+    }
+
+    std::vector<Link> links_;
+    std::vector<EdgeRow> edges_;
+    std::vector<std::uint8_t> taken_; // [tet]
+    std::vector<Link> free_;
+    std::vector<Fan> fans_;
+};
+
+} // namespace
+
+std::vector<Fan> cover_with_fans(std::span<const Tet> tets, std::span<const Vec3f> at) {
+    return Cover(tets, at).run();
+}
+
+} // namespace resect

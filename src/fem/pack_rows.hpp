@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "fem/fans.hpp"
+#include "fem/packing.hpp"
+
+// What building and patching a packing share.
+namespace resect {
+
+Vec3 difference(const Place& to, const Place& from); // in quanta
+
+Index find_slot(const Packing& packing, Index part, Index node); // -1: the node has none in this part
+/// The slot of a node in a part, made if need be.
+Index slot_for(Packing& packing, const NodeArrays& nodes, Index part, Index node);
+
+Index block_of(const Part& part, Index tet); // row of Part::blocks, of a row of Part::tets
+/// mu / K of a copy, which the copies of a block share.
+float shear_over_resistance(const Elements& elements, Index copy);
+
+/// Room for the slots of a part that has none yet.
+void reserve_slots(Packing& packing, Index part, Index nodes);
+
+/// Covers copies of a part with fans and appends them to its blocks.
+void pack_copies(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part,
+                 std::span<const Index> copies);
+/// Fans of one material, whose tets are copies.
+void append_fans(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part,
+                 std::span<const Fan> fans, float shear_over_resistance);
+
+/// Writes what the law needs of a copy at its seat.
+void write_tet(Packing& packing, const Elements& elements, Index copy);
+/// Nobody sits there any more.
+void clear_tet(Packing& packing, const Seat& seat);
+
+} // namespace resect
