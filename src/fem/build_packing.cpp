@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/index.hpp"
+#include "base/reserve.hpp"
 #include "fem/fans.hpp"
 #include "fem/pack_rows.hpp"
 
@@ -125,6 +126,16 @@ std::vector<Index> find_nodes(const Elements& elements, std::span<const Index> c
     return nodes;
 }
 
+/// Room for what cuts add.
+void reserve_rows(Part& part) {
+    reserve_ahead(part.blocks, 2);
+    reserve_ahead(part.nodes, 2);
+    reserve_ahead(part.tets, 2);
+    reserve_ahead(part.copies, 2);
+    part.spare.reserve(64);
+    part.alone.reserve(1024);
+}
+
 } // namespace
 
 void pack_copies(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part,
@@ -168,6 +179,7 @@ Packing build_packing(const Elements& elements, const NodeArrays& nodes) {
             slot_for(packing, nodes, index, node);
         }
         pack_copies(packing, elements, nodes, index, copies);
+        reserve_rows(packing.parts.back());
     }
     return packing;
 }

@@ -19,6 +19,8 @@ constexpr int width = RESECT_WIDTH;
 using V = VectorOf<width>::Float;
 using Mask = VectorOf<width>::Int;
 using V4 = VectorOf<4>::Float;
+using D2 [[gnu::vector_size(16)]] = double;
+using M2 [[gnu::vector_size(16)]] = long long;
 using VAt = VectorOf<width>::FloatsAt;
 using MaskAt = VectorOf<width>::IntsAt;
 using M4 = VectorOf<4>::Int;
@@ -39,6 +41,25 @@ struct Places {
 RESECT_INLINE V fma(V a, V b, V c) { return __builtin_ia32_vfmaddps256(a, b, c); }
 #elif RESECT_WIDTH == 16 && !defined(__clang__)
 RESECT_INLINE V fma(V a, V b, V c) { return __builtin_ia32_vfmaddps512_mask(a, b, c, -1, 4); }
+#elif defined(__SSE2__) && !defined(__FMA__)
+/// The product is exact in double; the sum is rounded to odd, so that rounding it to float rounds as if once
+/// (Boldo and Melquiond 2008).
+RESECT_INLINE D2 multiply_add(D2 a, D2 b, D2 c) {
+    const D2 product = a * b, sum = product + c, part = sum - product;
+    const D2 error = (product - (sum - part)) + (c - part);
+    const M2 bits = reinterpret_cast<M2>(sum);
+    const M2 is_even = (bits & 1) - 1, is_inexact = (error > 0) | (error < 0);
+    const M2 step = ((error > 0) ^ (sum > 0)) | 1;
+    return reinterpret_cast<D2>(bits + (is_even & is_inexact & step));
+}
+RESECT_INLINE D2 low(V v) { return __builtin_convertvector(__builtin_shufflevector(v, v, 0, 1), D2); }
+RESECT_INLINE D2 high(V v) { return __builtin_convertvector(__builtin_shufflevector(v, v, 2, 3), D2); }
+RESECT_INLINE V fma(V a, V b, V c) {
+    using V2 = VectorOf<2>::Float;
+    return __builtin_shufflevector(__builtin_convertvector(multiply_add(low(a), low(b), low(c)), V2),
+                                   __builtin_convertvector(multiply_add(high(a), high(b), high(c)), V2), 0, 1,
+                                   2, 3);
+}
 #else
 RESECT_INLINE V fma(V a, V b, V c) {
     V sum;

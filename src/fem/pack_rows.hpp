@@ -29,6 +29,11 @@ void pack_copies(Packing& packing, const Elements& elements, const NodeArrays& n
 void append_fans(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part,
                  std::span<const Fan> fans, float shear_over_resistance);
 
+/// Seats a copy in a block of single tets of a part.
+void seat_alone(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part, Index copy);
+/// The copy's lane is free for another.
+void leave_seat(Packing& packing, Index copy);
+
 /// Writes what the law needs of a copy at its seat.
 void write_tet(Packing& packing, const Elements& elements, Index copy);
 /// Nobody sits there any more.

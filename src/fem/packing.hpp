@@ -25,7 +25,8 @@ struct Part {
     std::vector<FanNodes> nodes = {};
     std::vector<FanTets> tets = {};
     std::vector<FanCopies> copies = {}; // [row of tets]
-    std::vector<Index> spare = {};      // blocks of single tets with free lanes
+    std::vector<Index> spare = {};      // rows of tets: blocks of single tets with free lanes
+    std::vector<Index> alone = {};      // copies that went to such a block, the latest last
 };
 
 /// Where the step finds a copy.
@@ -62,6 +63,10 @@ void seat_new_copy(Packing& packing, const Elements& elements, const NodeArrays&
 void reseat_copy(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index copy);
 /// A copy of which only the weight or the material changed.
 void refresh_copy(Packing& packing, const Elements& elements, Index copy);
+
+/// Seats copies that cuts left alone in fans again, and copies of blocks that cuts left half empty alone: a
+/// small part of the work, for one part of the packing.
+void repack(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part);
 
 /// The four slots of a seated copy, in the order of its fan.
 std::array<Index, 4> slots_of(const Packing& packing, const Seat& seat);

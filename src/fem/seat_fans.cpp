@@ -93,19 +93,20 @@ struct Lane {
 
 Lane find_spare_lane(Part& part, float ratio) {
     for (std::size_t i = part.spare.size(); i-- > 0;) {
-        const FanBlock& block = part.blocks[row(part.spare[i])];
-        const auto& copies = part.copies[row(block.first_tet)].at;
+        const FanBlock& block = part.blocks[row(block_of(part, part.spare[i]))];
+        const auto& copies = part.copies[row(part.spare[i])].at;
         const auto free = std::find(std::begin(copies), std::end(copies), -1);
         if (free == std::end(copies)) {
             part.spare.erase(part.spare.begin() + static_cast<std::ptrdiff_t>(i));
         } else if (block.shear_over_resistance == ratio) {
-            return {part.spare[i], static_cast<Index>(free - std::begin(copies))};
+            return {block_of(part, part.spare[i]), static_cast<Index>(free - std::begin(copies))};
         }
     }
     return {};
 }
 
-/// In a block of single tets of its part.
+} // namespace
+
 void seat_alone(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part_row,
                 Index copy) {
     const float ratio = shear_over_resistance(elements, copy);
@@ -115,13 +116,21 @@ void seat_alone(Packing& packing, const Elements& elements, const NodeArrays& no
         append_block(packing, nodes, part_row, {.length = 1, .shear_over_resistance = ratio}, node[0]);
         Part& part = packing.parts[row(part_row)];
         lane = {static_cast<Index>(part.blocks.size()) - 1, 0};
-        part.spare.push_back(lane.block);
+        part.spare.push_back(part.blocks.back().first_tet);
     }
+    packing.parts[row(part_row)].alone.push_back(copy);
     write_fan(packing, elements, nodes, part_row, lane.block, lane.lane,
               {.length = 1, .node = {node[0], node[1], node[2], node[3]}, .tet = {copy}});
 }
 
-} // namespace
+void leave_seat(Packing& packing, Index copy) {
+    const Seat& from = packing.seats[row(copy)];
+    clear_tet(packing, from);
+    Part& part = packing.parts[row(from.part)];
+    const bool is_alone = part.blocks[row(block_of(part, from.tet))].length == 1;
+    const bool is_spare = std::find(part.spare.begin(), part.spare.end(), from.tet) != part.spare.end();
+    if (is_alone && !is_spare) { part.spare.push_back(from.tet); }
+}
 
 void seat_new_copy(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index copy,
                    Index parent) {
@@ -130,13 +139,8 @@ void seat_new_copy(Packing& packing, const Elements& elements, const NodeArrays&
 }
 
 void reseat_copy(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index copy) {
-    const Seat from = packing.seats[row(copy)];
-    clear_tet(packing, from);
-    Part& part = packing.parts[row(from.part)];
-    const Index block = block_of(part, from.tet);
-    const bool is_spare = std::find(part.spare.begin(), part.spare.end(), block) != part.spare.end();
-    if (part.blocks[row(block)].length == 1 && !is_spare) { part.spare.push_back(block); }
-    seat_alone(packing, elements, nodes, from.part, copy);
+    leave_seat(packing, copy);
+    seat_alone(packing, elements, nodes, packing.seats[row(copy)].part, copy);
 }
 
 void refresh_copy(Packing& packing, const Elements& elements, Index copy) {

@@ -104,6 +104,7 @@ void archive_packing(Archive& archive, Packing& packing) {
         archive.rows(part.tets);
         archive.rows(part.copies);
         archive.rows(part.spare);
+        archive.rows(part.alone);
     });
     archive.rows(packing.seats);
     archive.value(packing.quanta_a_metre);

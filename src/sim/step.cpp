@@ -46,6 +46,12 @@ void move_prescribed(Engine& engine) {
     }
 }
 
+/// One part after the other, by the number of the step and never by the clock: bits do not depend on speed.
+void repack_one_part(Engine& engine) {
+    const auto parts = static_cast<std::int64_t>(engine.packing.parts.size());
+    repack(engine.packing, engine.elements, engine.nodes, static_cast<Index>(engine.step % parts));
+}
+
 } // namespace
 
 void compute_forces(Engine& engine) {
@@ -69,6 +75,7 @@ bool step_motion(Engine& engine) {
     engine.work.internal += sums.internal_work;
     engine.work.damping += sums.damping_work;
     ++engine.step;
+    repack_one_part(engine);
     return true;
 }
 

@@ -94,6 +94,33 @@ TEST_CASE("a copy cut in two resists as one while its halves move together") {
     CHECK(largest_difference(nodal_forces(body), before) < 1e-6 * largest(before));
 }
 
+TEST_CASE("repacking seats copies that cuts left alone in fans again, and forces stay") {
+    TestBody body = make_shaken();
+    all_forces(body);
+    const std::vector<Vec3> before = nodal_forces(body);
+    std::mt19937 engine(6);
+    for (int i = 0; i < 3000; ++i) {
+        const Index copy = static_cast<Index>(engine() % unsigned(body.elements.count));
+        reseat_copy(body.packing, body.elements, body.nodes, copy);
+        const Index part = i % Index(body.packing.parts.size());
+        if (i > 1500) { repack(body.packing, body.elements, body.nodes, part); }
+    }
+    for (int i = 0; i < 150; ++i) {
+        repack(body.packing, body.elements, body.nodes, i % Index(body.packing.parts.size()));
+    }
+    CHECK(find_packing_fault(body.packing, body.elements).empty());
+    std::size_t lanes_walked = 0;
+    for (const Part& part : body.packing.parts) {
+        CHECK(part.alone.size() < 96);
+        for (const FanBlock& block : part.blocks) {
+            lanes_walked += row(block.length * fan_lanes);
+        }
+    }
+    CHECK(lanes_walked < 1.5 * double(body.elements.count));
+    all_forces(body);
+    CHECK(largest_difference(nodal_forces(body), before) < 1e-6 * largest(before));
+}
+
 TEST_CASE("parts of their own viscous times resist as one body of each time does") {
     TestBody mixed = make_shaken(0);
     for (Index copy = 5000; copy < mixed.elements.count; ++copy) {

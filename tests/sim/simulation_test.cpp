@@ -53,22 +53,38 @@ TEST_CASE("a run that diverges stops with the step, the element and the reason, 
     CHECK(simulation.hash() == hash);
 }
 
+namespace {
+
+std::uint64_t hash_after_cut(int threads) {
+    Setup setup = held_block(10);
+    setup.gravity = {0, 0, -9.81};
+    setup.threads = threads;
+    Simulation simulation = must(Simulation::create(setup));
+    simulation.advance(0.05);
+    must(simulation.apply(MoveBlade{.to = edge_above(0.053, 0.12)}));
+    must(simulation.apply(MoveBlade{.to = edge_above(0.057, -0.05)}));
+    CHECK(simulation.advance(0.1).cut.pieces == 2);
+    must(simulation.apply(LiftBlade{}));
+    simulation.advance(0.05);
+    return simulation.hash();
+}
+
+} // namespace
+
 TEST_CASE("the same bits come out for any number of threads, before and after a cut") {
-    std::uint64_t expected = 0;
-    for (const int threads : {1, 2, 3, 8}) {
-        Setup setup = held_block(10);
-        setup.gravity = {0, 0, -9.81};
-        setup.threads = threads;
-        Simulation simulation = must(Simulation::create(setup));
-        simulation.advance(0.05);
-        must(simulation.apply(MoveBlade{.to = edge_above(0.053, 0.12)}));
-        must(simulation.apply(MoveBlade{.to = edge_above(0.057, -0.05)}));
-        CHECK(simulation.advance(0.1).cut.pieces == 2);
-        must(simulation.apply(LiftBlade{}));
-        simulation.advance(0.05);
-        if (threads == 1) { expected = simulation.hash(); }
-        CHECK(simulation.hash() == expected);
+    const std::uint64_t expected = hash_after_cut(1);
+    for (const int threads : {2, 3, 8}) {
+        CHECK(hash_after_cut(threads) == expected);
     }
+}
+
+TEST_CASE("the same bits come out of every instruction set, before and after a cut") {
+    const std::string best = instruction_set();
+    const std::uint64_t expected = hash_after_cut(2);
+    for (const char* set : {"sse2", "avx2", "avx512"}) {
+        if (choose_instruction_set(set)) { CHECK(hash_after_cut(2) == expected); }
+    }
+    choose_instruction_set(best);
 }
 
 TEST_CASE("a run in one piece and in ten ends in the same bits") {
