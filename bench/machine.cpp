@@ -22,12 +22,12 @@ struct Chains {
 };
 
 #if defined(__x86_64__)
-#define BENCH_TARGET(name) [[gnu::target(name)]]
+#define RESECT_BENCH_TARGET(name) [[gnu::target(name)]]
 #else
-#define BENCH_TARGET(name)
+#define RESECT_BENCH_TARGET(name)
 #endif
 
-BENCH_TARGET("avx512f,fma") [[gnu::noinline]] void turn(Chains<16>& x) {
+RESECT_BENCH_TARGET("avx512f,fma") [[gnu::noinline]] void turn(Chains<16>& x) {
     for (int round = 0; round < rounds; ++round) {
         for (auto& chain : x.at) {
             for (float& value : chain) {
@@ -36,7 +36,7 @@ BENCH_TARGET("avx512f,fma") [[gnu::noinline]] void turn(Chains<16>& x) {
         }
     }
 }
-BENCH_TARGET("avx2,fma") [[gnu::noinline]] void turn(Chains<8>& x) {
+RESECT_BENCH_TARGET("avx2,fma") [[gnu::noinline]] void turn(Chains<8>& x) {
     for (int round = 0; round < rounds; ++round) {
         for (auto& chain : x.at) {
             for (float& value : chain) {

@@ -52,7 +52,7 @@ struct Packing {
 Packing build_packing(const Elements& elements, const NodeArrays& nodes);
 
 /// Puts the slots of a node where displacement and velocity say.
-void place_at(Packing& packing, Index node, const Vec3f& displacement, const Vec3f& velocity);
+void place_at(Packing& packing, Index node, const Vec3f& u, const Vec3f& v);
 void place_node(Packing& packing, const NodeArrays& nodes, Index node);
 void place_all_nodes(Packing& packing, const NodeArrays& nodes);
 

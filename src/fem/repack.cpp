@@ -49,13 +49,15 @@ void drop_empty_blocks(Part& part) {
     }
 }
 
-/// The first block of fans of which cuts have left less than half.
+/// The first block of fans of which cuts have left less than three quarters. What becomes alone is too little
+/// to bring the next call about by itself.
 void dissolve_one(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part_row) {
     Part& part = packing.parts[row(part_row)];
     for (Index block = 0; block < static_cast<Index>(part.blocks.size()); ++block) {
         const Index length = part.blocks[row(block)].length;
         const std::vector<Index> copies = copies_in(part, part.blocks[row(block)]);
-        if (length == 1 || 2 * copies.size() > row(length * fan_lanes)) { continue; }
+        const bool is_full = 4 * copies.size() > 3 * row(length * fan_lanes);
+        if (length == 1 || is_full || copies.size() >= at_least) { continue; }
         for (const Index copy : copies) {
             leave_seat(packing, copy);
         }

@@ -27,22 +27,26 @@ void append_block(Packing& packing, const NodeArrays& nodes, Index part_row, con
     part.copies.insert(part.copies.end(), row(block.length), none);
 }
 
+struct Lane {
+    Index block = -1, lane = -1;
+};
+
 /// Fans shorter than their block stay on their last node.
 void write_fan(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part_row,
-               Index block_row, Index lane, const Fan& fan) {
-    const FanBlock block = packing.parts[row(part_row)].blocks[row(block_row)];
+               const Lane& to, const Fan& fan) {
+    const FanBlock block = packing.parts[row(part_row)].blocks[row(to.block)];
     const Index node_rows = block.length + (block.closed != 0 ? 2 : 3);
     for (Index i = 0; i < node_rows; ++i) {
         const Index node = fan.node[row(std::min(i, fan.length + 2))];
         const Index slot = slot_for(packing, nodes, part_row, node);
         Part& part = packing.parts[row(part_row)];
-        part.nodes[row(block.first_node + i)].at[lane] =
+        part.nodes[row(block.first_node + i)].at[to.lane] =
             static_cast<unsigned>(slot - part.first_slot) * unsigned{sizeof(Row)};
     }
     for (Index j = 0; j < fan.length; ++j) {
         const Index copy = fan.tet[row(j)];
-        packing.seats[row(copy)] = {part_row, block.first_tet + j, lane};
-        packing.parts[row(part_row)].copies[row(block.first_tet + j)].at[lane] = copy;
+        packing.seats[row(copy)] = {part_row, block.first_tet + j, to.lane};
+        packing.parts[row(part_row)].copies[row(block.first_tet + j)].at[to.lane] = copy;
         write_tet(packing, elements, copy);
     }
 }
@@ -63,7 +67,7 @@ void append_fans(Packing& packing, const Elements& elements, const NodeArrays& n
             of_one_block.front()->node[0]);
         const Index block = static_cast<Index>(packing.parts[row(part)].blocks.size()) - 1;
         for (std::size_t lane = 0; lane < of_one_block.size(); ++lane) {
-            write_fan(packing, elements, nodes, part, block, static_cast<Index>(lane), *of_one_block[lane]);
+            write_fan(packing, elements, nodes, part, {block, static_cast<Index>(lane)}, *of_one_block[lane]);
         }
     };
     std::map<std::pair<Index, bool>, std::vector<const Fan*>> waiting; // longest first
@@ -86,10 +90,6 @@ void append_fans(Packing& packing, const Elements& elements, const NodeArrays& n
 }
 
 namespace {
-
-struct Lane {
-    Index block = -1, lane = -1;
-};
 
 Lane find_spare_lane(Part& part, float ratio) {
     for (std::size_t i = part.spare.size(); i-- > 0;) {
@@ -119,7 +119,7 @@ void seat_alone(Packing& packing, const Elements& elements, const NodeArrays& no
         part.spare.push_back(part.blocks.back().first_tet);
     }
     packing.parts[row(part_row)].alone.push_back(copy);
-    write_fan(packing, elements, nodes, part_row, lane.block, lane.lane,
+    write_fan(packing, elements, nodes, part_row, lane,
               {.length = 1, .node = {node[0], node[1], node[2], node[3]}, .tet = {copy}});
 }
 

@@ -120,10 +120,10 @@ struct alignas(64) Suspects {
         now.length_change += margin;
         now.area_change += margin;
         const Symmetric<float> E = right_cauchy_green_minus_1(H);
-        const float trace_E = E.diagonal[0] + E.diagonal[1] + E.diagonal[2];
+        const float sum = E.diagonal[0] + E.diagonal[1] + E.diagonal[2];
         const float squares = dot(E.diagonal, E.diagonal) + 2 * dot(E.off_diagonal, E.off_diagonal);
-        const float p = trace_E * (1.0F / 3);
-        const float radius_squared = (squares - trace_E * p) * (2.0F / 3);
+        const float p = sum * (1.0F / 3);
+        const float radius_squared = (squares - sum * p) * (2.0F / 3);
         const float room = above - p < below + p ? above - p : below + p;
         const bool is_known = (room >= 0) & (radius_squared <= room * room);
         suspects.copy[lane] = is_known & is_trusted(now) ? 0 : 1;
@@ -138,8 +138,8 @@ StrainCheck screen_strain(const Elements& elements, const NodeArrays& nodes, con
     const auto above = static_cast<float>(known.stretch_max * known.stretch_max - 1);
     const auto below = static_cast<float>(1 - known.stretch_min * std::abs(known.stretch_min));
     StrainCheck check;
-    RelativeBlock u;
-    Suspects suspects;
+    RelativeBlock u = {};
+    Suspects suspects = {};
     for (Index first = copies.begin; first < copies.end; first += lanes) {
         const ElementBlock& block = elements.blocks[row(first / lanes)];
         gather(u, block, nodes.displacement);

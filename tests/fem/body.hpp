@@ -81,6 +81,7 @@ inline StepSums step(TestBody& body, const StepConstants& constants) {
 /// Net internal force by node, N.
 inline std::vector<Vec3> nodal_forces(const TestBody& body) {
     std::vector<Vec3> force;
+    force.reserve(body.mesh.nodes.size());
     for (Index node = 0; node < node_count(body); ++node) {
         force.push_back(to_double(internal_force(body.packing, node)));
     }
