@@ -49,6 +49,13 @@ struct SheetMark {
     Vec3 normal = {};   // of the sheet, at rest
 };
 
+/// How long elements are too far from the blade to be cut (near.cpp).
+struct Approach {
+    double moved = 0; // m, bound on the motion of blade and tissue towards each other so far
+    std::vector<double> safe_until = {}; // [place in near_order] value of `moved` up to which it cannot meet
+    std::vector<double> block_safe_until = {}; // the least of each block of places
+};
+
 /// A blade and its stroke, which lasts from placing to lifting, and longer if a blade takes it over.
 struct Blade {
     bool placed = false;
@@ -59,8 +66,7 @@ struct Blade {
     EdgeMap<Crossing> pending = {};  // of this stroke, not bisected yet
     Rows<SheetMark> sheet = {};      // [vertex]
     std::vector<Index> waiting = {}; // tets that others bisected among its crossings, to look at
-    std::vector<double> margin =
-        {}; // [block of elements] m, that it and the blade may move and not meet (near.cpp)
+    Approach approach = {};
 };
 
 inline bool is_zero(const Blade& blade, Index vertex) {

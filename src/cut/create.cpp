@@ -444,7 +444,9 @@ void reserve_rows(Cutter& cutter) {
     }
     scratch.walked_pairs.grow(4 * copies);
     scratch.tracked.grow(vertices);
+    scratch.classified.grow(nodes);
     scratch.tracks.resize(vertices);
+    scratch.node_outside.resize(nodes);
     scratch.place.resize(nodes);
     scratch.placed.grow(nodes);
     scratch.flood_of.resize(copies);
@@ -472,7 +474,6 @@ Problem build_cutter(Cutter& cutter) {
     label_pieces(cutter);
     cutter.crowd = crowd_unrefined << cutter.setup.options.refine;
     cutter.near_order = order_by_place(cutter.body.elements);
-    cutter.near_nodes = list_block_nodes(cutter.body.elements, cutter.near_order);
     reserve_rows(cutter);
     cutter.body.material = {};
     cutter.body.element_of = {};

@@ -183,7 +183,7 @@ void place_blade(Cutter& cutter, Index blade, const Edge& pose, std::span<const 
     placed.waiting.clear();
     placed.sheet.grow(cutter.material.rest.size(), {});
     placed.sheet.reserve(2);
-    placed.margin.clear();
+    placed.approach = {};
 }
 
 void lift_blade(Cutter& cutter, Index blade) {

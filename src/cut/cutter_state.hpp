@@ -16,7 +16,7 @@ namespace resect {
 struct Track {
     GridPoint before = {}, after = {};
     double height_before = 0, height_after = 0; // m above the tip
-    std::uint16_t outside = 0;                  // a bit for each side of the blade's box that it stays beyond
+    std::uint8_t outside = 0;                   // a bit for each side of the blade's box that it stays beyond
     bool on_grid = false;
 };
 
@@ -29,15 +29,16 @@ struct TetFace {
 /// What one increment works with; kept only so that nothing is allocated again.
 struct Scratch {
     // detect
-    std::vector<Vec3> place = {};           // [node] in the frame of the blade, where placed
-    Marks placed = {};                      // nodes
-    std::vector<float> motion_squared = {}; // [element node] m^2
-    std::vector<Index> near_copies = {};    // that may meet the blade
-    std::vector<Index> copies_ahead = {};   // within BladeBox::ahead of it
-    std::vector<Track> tracks = {};         // [vertex] where tracked
-    Marks tracked = {};                     // vertices
-    double least_path = 0;                  // m, of a tracked vertex past the blade
-    std::vector<Index> near = {};           // vertices whose path meets the blade
+    std::vector<Vec3> place = {};                // [node] where placed, in the blade's frame
+    Marks placed = {};                           // nodes
+    std::vector<std::uint8_t> node_outside = {}; // [node] where classified
+    Marks classified = {};                       // nodes
+    std::vector<Index> near_copies = {};         // that may meet the blade
+    std::vector<Index> copies_ahead = {};        // within BladeBox::ahead of it
+    std::vector<Track> tracks = {};              // [vertex] where tracked
+    Marks tracked = {};                          // vertices
+    double least_path = 0;                       // m, of a tracked vertex past the blade
+    std::vector<Index> near = {};                // vertices whose path meets the blade
     struct Event {
         MaterialEdge edge = {}; // u < w
         double t = 0;           // from u
@@ -124,12 +125,6 @@ struct CutterState {
     Pieces pieces = {};
 };
 
-/// Rows of element nodes, by block of elements.
-struct BlockNodes {
-    std::vector<Index> first = {}; // [block] row of `node`, and one behind the last
-    std::vector<Index> node = {};
-};
-
 /// Stages of an increment, for tests that make one fail.
 enum class Stage { none, refine, detect, bisect, tear, derive };
 
@@ -146,8 +141,7 @@ struct Cutter : CutterState {
     double grain = 0;                          // m, the largest of the material
     Index crowd = 0;                    // material tets of an element from which it is cut along faces only
     std::vector<Index> near_order = {}; // elements, neighbours close together (near.cpp)
-    BlockNodes near_nodes = {};
-    Stage failing = Stage::none; // after which an increment is made to fail
+    Stage failing = Stage::none;        // after which an increment is made to fail
 
     SurfaceCache surface = {};
     Scratch scratch = {};

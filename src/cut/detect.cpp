@@ -106,7 +106,7 @@ void find_tet_crossings(Cutter& cutter, const Sweep& sweep, const BladeBox& box,
                         CutReport& report) {
     Scratch& scratch = cutter.scratch;
     const Tet& vertex = cutter.material.tet(tet).vertex;
-    unsigned common = every_side;
+    unsigned common = 63;
     bool on_grid = true;
     for (const Index v : vertex) {
         const Track& track = track_vertex(cutter, sweep, box, v);
@@ -248,23 +248,14 @@ BladeBox make_box(const Cutter& cutter, const Sweep& sweep) {
     return {across, beyond_tip, sweep.to.length, ahead};
 }
 
-std::uint16_t sides_beyond(const BladeBox& box, const Vec3& p) {
-    const double diagonal = std::sqrt(2.0) * box.across;
-    const double sum = p[0] + p[1];
-    const double difference = p[0] - p[1];
-    const bool beyond[10] = {p[0] > box.across,
-                             p[0]<-box.across, p[1]> box.across,
-                             p[1]<-box.across, sum>
-                                 diagonal,
-                             sum<-diagonal, difference>
-                                 diagonal,
-                             difference < -diagonal,
-                             p[2]<-box.beyond_tip - box.across, p[2]> box.length + box.across};
+std::uint8_t sides_beyond(const BladeBox& box, const Vec3& p) {
+    const bool beyond[6] = {p[0] > box.across, p[0]<-box.across, p[1]> box.across, p[1] < -box.across,
+                            p[2]<-box.beyond_tip - box.across, p[2]> box.length + box.across};
     unsigned bits = 0;
-    for (unsigned i = 0; i < 10; ++i) {
+    for (unsigned i = 0; i < 6; ++i) {
         bits |= unsigned{beyond[i]} << i;
     }
-    return static_cast<std::uint16_t>(bits);
+    return static_cast<std::uint8_t>(bits);
 }
 
 void detect_crossings(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box,

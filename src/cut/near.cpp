@@ -5,9 +5,10 @@
 
 #include "cut/stages.hpp"
 
-// Which copies may meet the blade. Nothing is sorted or refitted as the tissue moves: a block of elements
-// that is farther from the blade than both have moved since it was looked at last cannot have come near, so
-// each is looked at again only once that much motion has passed (conservative advancement).
+// Which copies may meet the blade. Nothing is sorted or refitted as the tissue moves: an element that is
+// farther from the blade than both have moved since it was looked at last cannot have come near, so each is
+// looked at again only once that much motion has passed (conservative advancement), and blocks of elements
+// are skipped as one.
 namespace resect {
 namespace {
 
@@ -18,32 +19,20 @@ Edge reach_of(const BladeFrame& frame, const BladeBox& box) {
     return {frame.tip + frame.length * frame.along, frame.tip - box.beyond_tip * frame.along};
 }
 
-/// Squared distances that the nodes move, by reference node, m^2: the most of each one's copies.
-void find_motions(Cutter& cutter, const Sweep& sweep) {
-    std::vector<float>& motion = cutter.scratch.motion_squared;
-    motion.assign(cutter.body.elements.nodes.size(), 0);
-    if (sweep.before.data() == sweep.after.data()) { return; }
-    for (std::size_t node = 0; node < sweep.after.size(); ++node) {
-        const Vec3f d = sweep.after[node] - sweep.before[node];
-        float& most = motion[row(cutter.mesh.node_reference[node])];
-        most = std::max(most, dot(d, d));
+double farthest_motion(const Sweep& sweep) {
+    if (sweep.before.data() == sweep.after.data()) { return 0; }
+    float farthest = 0; // squared
+    for (std::size_t n = 0; n < sweep.after.size(); ++n) {
+        const Vec3f d = sweep.after[n] - sweep.before[n];
+        farthest = std::max(farthest, dot(d, d));
     }
+    return 1.000001 * std::sqrt(static_cast<double>(farthest)); // of floats
 }
 
-/// How far the nodes of a block of elements move, at most, m.
-double find_motion(const Cutter& cutter, std::size_t block) {
-    float most = 0; // squared
-    for (Index i = cutter.near_nodes.first[block]; i < cutter.near_nodes.first[block + 1]; ++i) {
-        most = std::max(most, cutter.scratch.motion_squared[row(cutter.near_nodes.node[row(i)])]);
-    }
-    return 1.000001 * std::sqrt(double{most}); // of floats
-}
-
-/// How far what the blade cuts and sees moves, at most, m.
-double blade_motion(const Sweep& sweep, const BladeBox& box) {
+double motion_of(const Sweep& sweep, const BladeBox& box) {
     const Edge from = reach_of(sweep.from, box);
     const Edge to = reach_of(sweep.to, box);
-    return std::max(length(to.heel - from.heel), length(to.tip - from.tip));
+    return std::max(length(to.heel - from.heel), length(to.tip - from.tip)) + farthest_motion(sweep);
 }
 
 /// Where a node is at the sweep's end, in the blade's frame.
@@ -56,64 +45,54 @@ const Vec3& place_node(Cutter& cutter, const Sweep& sweep, Index node) {
     return scratch.place[row(node)];
 }
 
-/// Where a copy is at the sweep's end, in the blade's frame.
-Box find_bounds(Cutter& cutter, const Sweep& sweep, Index copy) {
-    const Tet& nodes = cutter.mesh.copy_node[row(copy)];
-    const Vec3& first = place_node(cutter, sweep, nodes[0]);
-    Box box = {first, first};
-    for (std::size_t k = 1; k < 4; ++k) {
-        const Vec3& place = place_node(cutter, sweep, nodes[k]);
+/// How far the copies of an element are from the blade at the sweep's end, at least; 0 if they may meet it.
+double find_gap(Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index element) {
+    const double across = std::sqrt(2.0) * box.across; // the frame may turn about the blade
+    const Vec3 lo = {-across, -across, -box.beyond_tip - across};
+    const Vec3 hi = {across, across, box.length + across};
+    double gap = std::numeric_limits<double>::infinity();
+    for (Index c = cutter.first_copy[row(element)]; c >= 0; c = cutter.sibling[row(c)]) {
+        const Tet& nodes = cutter.mesh.copy_node[row(c)];
+        Vec3 low = place_node(cutter, sweep, nodes[0]);
+        Vec3 high = low;
+        for (std::size_t k = 1; k < 4; ++k) {
+            const Vec3& p = place_node(cutter, sweep, nodes[k]);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                low[axis] = std::min(low[axis], p[axis]);
+                high[axis] = std::max(high[axis], p[axis]);
+            }
+        }
+        double apart = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.lo[axis] = std::min(box.lo[axis], place[axis]);
-            box.hi[axis] = std::max(box.hi[axis], place[axis]);
+            apart = std::max({apart, low[axis] - hi[axis], lo[axis] - high[axis]});
         }
+        gap = std::min(gap, apart);
     }
-    return box;
+    return gap;
 }
 
-/// How far a copy is from what the blade cuts and sees, at least; 0 if they may meet, and if it is nowhere.
-double find_gap(const Box& copy, const BladeBox& blade) {
-    const double across = std::sqrt(2.0) * blade.across; // the frame may turn about the blade
-    const Vec3 lo = {-across, -across, -blade.beyond_tip - across};
-    const Vec3 hi = {across, across, blade.length + across};
-    double apart = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        apart = std::max({apart, copy.lo[axis] - hi[axis], lo[axis] - copy.hi[axis]});
-    }
-    return apart;
-}
-
-/// How far from the blade's tip some of the box may be, at most.
-double farthest_of(const Box& box) {
-    double reach = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        reach += std::max(-box.lo[axis], box.hi[axis]);
-    }
-    return reach;
-}
-
-std::span<const Index> elements_of(const Cutter& cutter, std::size_t block) {
-    const std::size_t begin = block * block_size;
-    return std::span(cutter.near_order)
-        .subspan(begin, std::min(block_size, cutter.near_order.size() - begin));
-}
-
-/// Lists the copies of a block that may meet the blade, and returns how far the nearest is from it.
-double list_copies(Cutter& cutter, const Sweep& sweep, const BladeBox& box, std::size_t block, double moved) {
+unsigned classify_node(Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index node) {
     Scratch& scratch = cutter.scratch;
-    const double turn = length(sweep.to.along - sweep.from.along);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Index element : elements_of(cutter, block)) {
-        for (Index c = cutter.first_copy[row(element)]; c >= 0; c = cutter.sibling[row(c)]) {
-            const Box bounds = find_bounds(cutter, sweep, c);
-            const double gap = find_gap(bounds, box);
-            nearest = std::min(nearest, gap);
-            // What is far from the tip moves the more, the more the blade turns.
-            if (gap <= moved + turn * farthest_of(bounds)) { scratch.near_copies.push_back(c); }
-            if (box.ahead > 0 && gap <= moved + box.ahead) { scratch.copies_ahead.push_back(c); }
-        }
+    if (scratch.classified.set(node)) {
+        const Vec3& rest = cutter.body.elements.nodes[row(cutter.mesh.node_reference[row(node)])];
+        const Vec3 before = to_frame(sweep.from, rest + to_double(sweep.before[row(node)]));
+        scratch.node_outside[row(node)] =
+            sides_beyond(box, before) & sides_beyond(box, place_node(cutter, sweep, node));
     }
-    return nearest;
+    return scratch.node_outside[row(node)];
+}
+
+/// Lists the copies of an element but those whose corners all stay beyond one side of the box: nothing
+/// between them can meet the blade.
+void list_copies(Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index element) {
+    for (Index c = cutter.first_copy[row(element)]; c >= 0; c = cutter.sibling[row(c)]) {
+        unsigned common = 63;
+        for (const Index node : cutter.mesh.copy_node[row(c)]) {
+            common &= classify_node(cutter, sweep, box, node);
+        }
+        if (common == 0) { cutter.scratch.near_copies.push_back(c); }
+        if (box.ahead > 0) { cutter.scratch.copies_ahead.push_back(c); }
+    }
 }
 
 } // namespace
@@ -147,37 +126,35 @@ std::vector<Index> order_by_place(const TetMesh& mesh) {
     return order;
 }
 
-BlockNodes list_block_nodes(const TetMesh& mesh, std::span<const Index> order) {
-    BlockNodes nodes;
-    nodes.first.push_back(0);
-    for (std::size_t begin = 0; begin < order.size(); begin += block_size) {
-        std::vector<Index> own;
-        for (const Index element : order.subspan(begin, std::min(block_size, order.size() - begin))) {
-            own.insert(own.end(), mesh.tets[row(element)].begin(), mesh.tets[row(element)].end());
-        }
-        std::sort(own.begin(), own.end());
-        nodes.node.insert(nodes.node.end(), own.begin(), std::unique(own.begin(), own.end()));
-        nodes.first.push_back(static_cast<Index>(nodes.node.size()));
-    }
-    return nodes;
-}
-
 void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box) {
     Scratch& scratch = cutter.scratch;
-    const std::size_t nodes = cutter.mesh.node_reference.size();
-    const std::size_t blocks = cutter.near_nodes.first.size() - 1;
     scratch.near_copies.clear();
     scratch.copies_ahead.clear();
-    if (scratch.place.size() < nodes) { scratch.place.resize(2 * nodes); }
-    scratch.placed.clear(nodes);
-    blade.margin.resize(blocks, 0);
-    find_motions(cutter, sweep);
-    const double motion = blade_motion(sweep, box);
-    for (std::size_t block = 0; block < blocks; ++block) {
-        const double moved = motion + find_motion(cutter, block);
-        blade.margin[block] -= moved;
-        if (blade.margin[block] > 0) { continue; }
-        blade.margin[block] = list_copies(cutter, sweep, box, block, moved) - box.ahead;
+    if (scratch.node_outside.size() < cutter.mesh.node_reference.size()) {
+        scratch.node_outside.resize(2 * cutter.mesh.node_reference.size());
+        scratch.place.resize(2 * cutter.mesh.node_reference.size());
+    }
+    scratch.placed.clear(cutter.mesh.node_reference.size());
+    scratch.classified.clear(cutter.mesh.node_reference.size());
+    Approach& approach = blade.approach;
+    const std::size_t count = cutter.near_order.size();
+    approach.safe_until.resize(count, -1);
+    approach.block_safe_until.resize((count + block_size - 1) / block_size, -1);
+    const double motion = motion_of(sweep, box);
+    approach.moved += motion;
+    for (std::size_t block = 0; block < approach.block_safe_until.size(); ++block) {
+        if (approach.moved <= approach.block_safe_until[block]) { continue; }
+        double safe_until = std::numeric_limits<double>::infinity();
+        for (std::size_t i = block * block_size; i < std::min(count, (block + 1) * block_size); ++i) {
+            if (approach.moved > approach.safe_until[i]) {
+                const double gap = find_gap(cutter, sweep, box, cutter.near_order[i]);
+                const bool is_far = gap > motion + box.ahead; // not, if it is not a number
+                approach.safe_until[i] = approach.moved + (is_far ? gap - box.ahead : 0);
+                if (!is_far) { list_copies(cutter, sweep, box, cutter.near_order[i]); }
+            }
+            safe_until = std::min(safe_until, approach.safe_until[i]);
+        }
+        approach.block_safe_until[block] = safe_until;
     }
 }
 

@@ -34,7 +34,7 @@ LongestEdge find_longest_edge(const Cutter& cutter, Index tet) {
 /// Some corners lie on either side of each side of the box, grown by what lies ahead.
 bool is_near(const Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index tet) {
     const BladeBox grown = {box.across + box.ahead, box.beyond_tip + box.ahead, box.length + box.ahead};
-    unsigned common = every_side;
+    unsigned common = 63;
     for (const Index v : cutter.material.tet(tet).vertex) {
         common &= sides_beyond(grown, to_frame(sweep.to, displaced_position(cutter, v, sweep.after)));
     }

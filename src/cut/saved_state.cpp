@@ -18,7 +18,9 @@ void archive_blade(Archive& archive, Blade& blade) {
     archive.rows(blade.waiting);
     blade.pending.archive(archive);
     blade.sheet.archive(archive);
-    archive.rows(blade.margin);
+    archive.value(blade.approach.moved);
+    archive.rows(blade.approach.safe_until);
+    archive.rows(blade.approach.block_safe_until);
 }
 
 template <class Archive>

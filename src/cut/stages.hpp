@@ -14,8 +14,6 @@ struct Sweep {
     std::span<const Vec3f> before = {}, after = {}; // displacements, [node]
 };
 
-inline constexpr unsigned every_side = 1023;
-
 /// The blade with its snapping distance around it and what it sees beyond its tip, in the blade's frame.
 struct BladeBox {
     double across = 0, beyond_tip = 0, length = 0; // m
@@ -23,14 +21,11 @@ struct BladeBox {
 };
 
 BladeBox make_box(const Cutter& cutter, const Sweep& sweep);
-/// A bit for each side of the prism around the blade, eight sides along it and two ends, that the point lies
-/// beyond.
-std::uint16_t sides_beyond(const BladeBox& box, const Vec3& point);
+/// A bit for each side of the box that the point lies beyond.
+std::uint8_t sides_beyond(const BladeBox& box, const Vec3& point);
 
 /// The elements in an order that keeps neighbours close together.
 std::vector<Index> order_by_place(const TetMesh& mesh);
-/// The nodes of the elements of each block of that order.
-BlockNodes list_block_nodes(const TetMesh& mesh, std::span<const Index> order);
 /// Lists the copies that may meet the blade.
 void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box);
 
