@@ -13,6 +13,7 @@ namespace {
 /// Whom the kernel calls for what it does not do.
 struct BeyondRange {
     const Elements& elements;
+    const NodeArrays& nodes;
     Packing& packing;
     Index part;
 };
@@ -24,36 +25,30 @@ void add_force(Packing& packing, Index slot, const Vec3f& force) {
     to.z += force[2];
 }
 
-/// The copy's slots in the order of its corners.
-std::array<Index, 4> corner_slots(const Packing& packing, const Elements& elements, Index copy) {
-    std::array<Index, 4> slots = {};
-    const Tet node = corners(elements, copy);
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-        slots[corner] = find_slot(packing, packing.seats[row(copy)].part, node[corner]);
-    }
-    return slots;
-}
-
-/// f_k = V P grad N_k by the whole law; the four forces of an element are in balance.
-void add_forces_beyond_range(const Elements& elements, Packing& packing, Index copy) {
-    const ElementBlock& block = elements.blocks[row(copy / lanes)];
+/// f_k = V P grad N_k by the whole law at u + viscous_time v; the four forces of an element are in balance.
+/// From displacements, since edges that are 32 times as long as any at rest are beyond what positions tell.
+void add_forces_beyond_range(const BeyondRange& range, Index copy) {
+    Packing& packing = range.packing;
+    const ElementBlock& block = range.elements.blocks[row(copy / lanes)];
     const Index lane = copy % lanes;
-    const std::array<Index, 4> slots = corner_slots(packing, elements, copy);
-    double edge[3][3] = {}, gradient[3][3] = {};
+    const Tet node = corners(range.elements, copy);
+    const double viscous_time = double(packing.parts[row(range.part)].viscous_time);
+    const auto ahead = [&](std::size_t corner) {
+        const std::size_t n = row(node[corner]);
+        return to_double(range.nodes.displacement[n]) + viscous_time * to_double(range.nodes.velocity[n]);
+    };
+    const Vec3 base = ahead(0);
+    double relative[3][3] = {}, gradient[3][3] = {};
     for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 to = (1 / double(packing.quanta_a_metre)) *
-                        difference(packing.position[row(slots[k + 1])], packing.position[row(slots[0])]);
+        const Vec3 u = ahead(k + 1) - base;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            edge[k][axis] = to[axis];
+            relative[k][axis] = u[axis];
             gradient[k][axis] = double(block.gradient[k][axis][lane]);
         }
     }
-    Matrix3<double> H = displacement_gradient(edge, gradient); // F, from the edges of now
-    for (int i = 0; i < 3; ++i) {
-        H.at[i][i] -= 1;
-    }
-    const Deformation<double> at = deformation(H);
-    const Matrix3<double> P = stress(at, law(at.now, moduli_of(elements, copy)));
+    const Deformation<double> at = deformation(displacement_gradient(relative, gradient));
+    const Matrix3<double> P = stress(at, law(at.now, moduli_of(range.elements, copy)));
+    const auto slot_of = [&](std::size_t corner) { return find_slot(packing, range.part, node[corner]); };
     Vec3f others = {};
     for (std::size_t k = 0; k < 3; ++k) {
         const auto along = [&](int axis) {
@@ -62,10 +57,10 @@ void add_forces_beyond_range(const Elements& elements, Packing& packing, Index c
                                       (P.at[axis][0] * g[0] + P.at[axis][1] * g[1] + P.at[axis][2] * g[2]));
         };
         const Vec3f force = {along(0), along(1), along(2)};
-        add_force(packing, slots[k + 1], force);
+        add_force(packing, slot_of(k + 1), force);
         others += force;
     }
-    add_force(packing, slots[0], -1.0F * others);
+    add_force(packing, slot_of(0), -1.0F * others);
 }
 
 void add_block_beyond_range(void* caller, int block_row, const FansBeyond& beyond) {
@@ -75,19 +70,18 @@ void add_block_beyond_range(void* caller, int block_row, const FansBeyond& beyon
     for (int j = 0; j < block.length; ++j) {
         for (int lane = 0; lane < fan_lanes; ++lane) {
             if (beyond.tet[j][lane] == 0) { continue; }
-            add_forces_beyond_range(range.elements, range.packing,
-                                    part.copies[row(block.first_tet + j)].at[lane]);
+            add_forces_beyond_range(range, part.copies[row(block.first_tet + j)].at[lane]);
         }
     }
 }
 
 } // namespace
 
-void element_forces(const Elements& elements, Packing& packing, Index part_row) {
+void element_forces(const Elements& elements, const NodeArrays& nodes, Packing& packing, Index part_row) {
     const Part& part = packing.parts[row(part_row)];
     const auto force = packing.force.begin() + part.first_slot;
     std::fill(force, force + part.slots, Row{});
-    BeyondRange beyond{elements, packing, part_row};
+    BeyondRange beyond{elements, nodes, packing, part_row};
     kernels().add_forces({.blocks = part.blocks.data(),
                           .block_count = static_cast<int>(part.blocks.size()),
                           .nodes = part.nodes.data(),

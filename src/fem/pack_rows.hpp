@@ -9,8 +9,6 @@
 // What building and patching a packing share.
 namespace resect {
 
-Vec3 difference(const Place& to, const Place& from); // in quanta
-
 Index find_slot(const Packing& packing, Index part, Index node); // -1: the node has none in this part
 /// The slot of a node in a part, made if need be.
 Index slot_for(Packing& packing, const NodeArrays& nodes, Index part, Index node);

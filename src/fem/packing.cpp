@@ -18,17 +18,11 @@ int subtract(int a, int b) { return static_cast<int>(static_cast<unsigned>(a) - 
 constexpr Index spare_share = 2;  // of a part's slots there is one more in store
 constexpr Index spare_slots = 64; // and these
 
-} // namespace
-
-Vec3 difference(const Place& to, const Place& from) {
-    return {double(subtract(to.x, from.x)), double(subtract(to.y, from.y)), double(subtract(to.z, from.z))};
-}
-
-namespace {
-
 /// In quanta.
 Vec3 rest_edge(const Packing& packing, Index from, Index to) {
-    return difference(packing.rest[row(to)], packing.rest[row(from)]);
+    const Place& a = packing.rest[row(from)];
+    const Place& b = packing.rest[row(to)];
+    return {double(subtract(b.x, a.x)), double(subtract(b.y, a.y)), double(subtract(b.z, a.z))};
 }
 
 } // namespace

@@ -33,7 +33,7 @@ StepSums operator+(const StepSums& a, const StepSums& b);
 /// Deformation, stress and nodal forces of the copies of a part (paper III.A, equations 2 to 5), at the
 /// positions that node_update and place_node left: x + viscous_time v, which adds strain-rate viscosity of
 /// that time constant to first order.
-void element_forces(const Elements& elements, Packing& packing, Index part);
+void element_forces(const Elements& elements, const NodeArrays& nodes, Packing& packing, Index part);
 
 /// Net forces and central differences for nodes [begin, end), begin a multiple of 8: paper III.C, time
 /// stepping 2. Reads displacement and velocity, writes next_displacement, next_velocity and positions.

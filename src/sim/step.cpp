@@ -55,8 +55,9 @@ void repack_one_part(Engine& engine) {
 } // namespace
 
 void compute_forces(Engine& engine) {
-    engine.workers.run(static_cast<Index>(engine.packing.parts.size()),
-                       [&](Index part) { element_forces(engine.elements, engine.packing, part); });
+    engine.workers.run(static_cast<Index>(engine.packing.parts.size()), [&](Index part) {
+        element_forces(engine.elements, engine.nodes, engine.packing, part);
+    });
 }
 
 bool step_motion(Engine& engine) {

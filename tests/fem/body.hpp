@@ -66,7 +66,7 @@ inline void hold_where(TestBody& body, const std::function<bool(const Vec3&)>& h
 inline void all_forces(TestBody& body) {
     place_all_nodes(body.packing, body.nodes);
     for (Index part = 0; part < Index(body.packing.parts.size()); ++part) {
-        element_forces(body.elements, body.packing, part);
+        element_forces(body.elements, body.nodes, body.packing, part);
     }
 }
 
