@@ -126,7 +126,7 @@ struct alignas(64) Suspects {
         const float radius_squared = (squares - sum * p) * (2.0F / 3);
         const float room = above - p < below + p ? above - p : below + p;
         const bool is_known = (room >= 0) & (radius_squared <= room * room);
-        suspects.copy[lane] = is_known & is_trusted(now) ? 0 : 1;
+        suspects.copy[lane] = (is_known & is_trusted(now)) ? 0 : 1;
     }
 }
 
