@@ -20,14 +20,14 @@ float viscous_time_of(const Elements& elements, Index copy) {
 }
 
 /// A copy and where it is.
-struct Place {
+struct PlacedCopy {
     Index copy;
     Vec3f at; // m, four times its centre
 };
 
-std::vector<Place> find_places(const Elements& elements, const NodeArrays& nodes,
-                               std::span<const Index> copies) {
-    std::vector<Place> places;
+std::vector<PlacedCopy> place_copies(const Elements& elements, const NodeArrays& nodes,
+                                     std::span<const Index> copies) {
+    std::vector<PlacedCopy> places;
     places.reserve(copies.size());
     for (const Index copy : copies) {
         Vec3f sum = {};
@@ -40,9 +40,9 @@ std::vector<Place> find_places(const Elements& elements, const NodeArrays& nodes
 }
 
 /// Where the first `count` copies along the longest axis end.
-void halve(std::span<Place> places, std::size_t count) {
+void halve(std::span<PlacedCopy> places, std::size_t count) {
     Vec3f lo = places.front().at, hi = lo;
-    for (const Place& place : places) {
+    for (const PlacedCopy& place : places) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             lo[axis] = std::min(lo[axis], place.at[axis]);
             hi[axis] = std::max(hi[axis], place.at[axis]);
@@ -51,16 +51,16 @@ void halve(std::span<Place> places, std::size_t count) {
     const Vec3f size = hi - lo;
     const auto axis = static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
     std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count), places.end(),
-                     [axis](const Place& p, const Place& q) {
+                     [axis](const PlacedCopy& p, const PlacedCopy& q) {
                          return p.at[axis] != q.at[axis] ? p.at[axis] < q.at[axis] : p.copy < q.copy;
                      });
 }
 
 /// So that copies that follow one another lie together.
-void sort_by_place(std::span<Place> places) {
+void sort_by_place(std::span<PlacedCopy> places) {
     if (places.size() <= row(copies_a_leaf)) {
         std::sort(places.begin(), places.end(),
-                  [](const Place& p, const Place& q) { return p.copy < q.copy; });
+                  [](const PlacedCopy& p, const PlacedCopy& q) { return p.copy < q.copy; });
         return;
     }
     const std::size_t half = places.size() / 2;
@@ -69,7 +69,7 @@ void sort_by_place(std::span<Place> places) {
     sort_by_place(places.subspan(half));
 }
 
-void split(std::span<Place> places, Index parts, std::vector<std::vector<Index>>& to) {
+void split(std::span<PlacedCopy> places, Index parts, std::vector<std::vector<Index>>& to) {
     if (parts > 1) {
         const Index low = parts / 2;
         const std::size_t count = places.size() * row(low) / row(parts);
@@ -80,7 +80,7 @@ void split(std::span<Place> places, Index parts, std::vector<std::vector<Index>>
     }
     sort_by_place(places);
     std::vector<Index>& copies = to.emplace_back();
-    for (const Place& place : places) {
+    for (const PlacedCopy& place : places) {
         copies.push_back(place.copy);
     }
 }
@@ -93,7 +93,7 @@ std::vector<std::vector<Index>> divide(const Elements& elements, const NodeArray
     }
     std::vector<std::vector<Index>> parts;
     for (const auto& [time, copies] : by_time) {
-        std::vector<Place> places = find_places(elements, nodes, copies);
+        std::vector<PlacedCopy> places = place_copies(elements, nodes, copies);
         const auto count = static_cast<Index>(copies.size()) / copies_a_part;
         split(places, std::clamp<Index>(count, 1, parts_at_most), parts);
     }

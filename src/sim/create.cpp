@@ -198,7 +198,7 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup) {
     }
     build_elements(*engine);
     build_nodes(*engine, setup.initial);
-    engine->model.load_number = measure_load_number(*engine);
+    engine->model.load_per_gravity = measure_load_per_gravity(*engine);
     update_all_stiffness(*engine);
     reserve_rows(*engine);
     engine->elastic_start = elastic_energy(engine->elements, engine->nodes.displacement);

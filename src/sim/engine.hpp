@@ -34,10 +34,10 @@ struct Model {
     std::vector<std::pair<Index, Vec3>> loads = {};
     Weights weights = Weights::fraction;
     Quantities quantities = Quantities::copy;
-    double rest_bound = 0;   // s
-    double size = 0;         // diagonal of the rest box, m
-    double element_size = 0; // cube root of the mean element's volume, m
-    double load_number = 0;  // rho g L / E at creation, see measure_load_number
+    double rest_bound = 0;       // s
+    double size = 0;             // diagonal of the rest box, m
+    double element_size = 0;     // cube root of the mean element's volume, m
+    double load_per_gravity = 0; // s^2/m, see measure_load_per_gravity
 };
 
 /// A blade on its way: poses that the next steps have yet to sweep, in order.
@@ -146,9 +146,9 @@ void check_strain_if_due(Engine& engine);
 Index find_diverged_element(const Engine& engine, std::string& reason);
 
 // warn.cpp
-/// rho g L / E of the softest material, L how far the body reaches from the box of what is held; 0 where
+/// rho L / E of the softest material, s^2/m, L how far the body reaches from the box of what is held; 0 where
 /// nothing is.
-double measure_load_number(const Engine& engine);
+double measure_load_per_gravity(const Engine& engine);
 /// What goes beyond what the method was seen to reach, in words; empty while all is well.
 std::vector<std::string> find_warnings(const Engine& engine);
 

@@ -24,7 +24,7 @@ double distance_from(const Box& box, const Vec3& point) {
 
 } // namespace
 
-double measure_load_number(const Engine& engine) {
+double measure_load_per_gravity(const Engine& engine) {
     const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
     Box held = {{1, 1, 1}, {-1, -1, -1}};
     bool any = false;
@@ -47,17 +47,18 @@ double measure_load_number(const Engine& engine) {
     for (const Material& material : engine.model.materials) {
         softest = std::max(softest, material.density / material.young);
     }
-    return softest * length(to_double(engine.constants.gravity)) * reach;
+    return softest * reach;
 }
 
 std::vector<std::string> find_warnings(const Engine& engine) {
     std::vector<std::string> warnings;
-    if (engine.model.load_number > (1 + rounding) * trusted_load) {
+    const double load_number = engine.model.load_per_gravity * length(to_double(engine.constants.gravity));
+    if (load_number > (1 + rounding) * trusted_load) {
         warnings.push_back(fmt::format(
             "the load number rho g L / E is {:.2f}: above {:g} elements at necks and thin edges may stay "
             "crushed or turn inside out once the body is cut; take a stiffer material, hold more of the body "
             "or lower gravity",
-            engine.model.load_number, trusted_load));
+            load_number, trusted_load));
     }
     if (engine.strain.elements_inverted > 0) {
         warnings.push_back(fmt::format(

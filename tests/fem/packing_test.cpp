@@ -34,6 +34,17 @@ double largest(const std::vector<Vec3>& a) {
     return largest_difference(a, std::vector<Vec3>(a.size(), Vec3{}));
 }
 
+/// Seats copies anew by `change`, which must leave a sound packing and the same forces.
+template <class Change>
+void check_forces_stay(TestBody& body, Change change) {
+    all_forces(body);
+    const std::vector<Vec3> before = nodal_forces(body);
+    change();
+    CHECK(find_packing_fault(body.packing, body.elements).empty());
+    all_forces(body);
+    CHECK(largest_difference(nodal_forces(body), before) < 1e-6 * largest(before));
+}
+
 } // namespace
 
 TEST_CASE("fans cover each tet once, and in few gathers") {
@@ -65,50 +76,43 @@ TEST_CASE("a packing seats every copy once, in as many parts as the copies say")
 
 TEST_CASE("copies that were seated anew resist as before") {
     TestBody body = make_shaken();
-    all_forces(body);
-    const std::vector<Vec3> before = nodal_forces(body);
-    std::mt19937 engine(5);
-    for (int i = 0; i < 500; ++i) {
-        const Index copy = static_cast<Index>(engine() % unsigned(body.elements.count));
-        reseat_copy(body.packing, body.elements, body.nodes, copy);
-    }
-    CHECK(find_packing_fault(body.packing, body.elements).empty());
-    all_forces(body);
-    CHECK(largest_difference(nodal_forces(body), before) < 1e-6 * largest(before));
+    check_forces_stay(body, [&] {
+        std::mt19937 engine(5);
+        for (int i = 0; i < 500; ++i) {
+            const Index copy = static_cast<Index>(engine() % unsigned(body.elements.count));
+            reseat_copy(body.packing, body.elements, body.nodes, copy);
+        }
+    });
 }
 
 TEST_CASE("a copy cut in two resists as one while its halves move together") {
     TestBody body = make_shaken();
-    all_forces(body);
-    const std::vector<Vec3> before = nodal_forces(body);
-    for (Index parent = 0; parent < 2000; parent += 3) {
-        append_copy_of(body.elements, parent);
-        const Index copy = body.elements.count - 1;
-        set_weight(body.elements, parent, 0.25, body.rest[row(parent)].volume);
-        set_weight(body.elements, copy, 0.75, body.rest[row(parent)].volume);
-        seat_new_copy(body.packing, body.elements, body.nodes, copy, parent);
-        refresh_copy(body.packing, body.elements, parent);
-    }
-    CHECK(find_packing_fault(body.packing, body.elements).empty());
-    all_forces(body);
-    CHECK(largest_difference(nodal_forces(body), before) < 1e-6 * largest(before));
+    check_forces_stay(body, [&] {
+        for (Index parent = 0; parent < 2000; parent += 3) {
+            append_copy_of(body.elements, parent);
+            const Index copy = body.elements.count - 1;
+            set_weight(body.elements, parent, 0.25, body.rest[row(parent)].volume);
+            set_weight(body.elements, copy, 0.75, body.rest[row(parent)].volume);
+            seat_new_copy(body.packing, body.elements, body.nodes, copy, parent);
+            refresh_copy(body.packing, body.elements, parent);
+        }
+    });
 }
 
 TEST_CASE("repacking seats copies that cuts left alone in fans again, and forces stay") {
     TestBody body = make_shaken();
-    all_forces(body);
-    const std::vector<Vec3> before = nodal_forces(body);
-    std::mt19937 engine(6);
-    for (int i = 0; i < 3000; ++i) {
-        const Index copy = static_cast<Index>(engine() % unsigned(body.elements.count));
-        reseat_copy(body.packing, body.elements, body.nodes, copy);
-        const Index part = i % Index(body.packing.parts.size());
-        if (i > 1500) { repack(body.packing, body.elements, body.nodes, part); }
-    }
-    for (int i = 0; i < 150; ++i) {
-        repack(body.packing, body.elements, body.nodes, i % Index(body.packing.parts.size()));
-    }
-    CHECK(find_packing_fault(body.packing, body.elements).empty());
+    const auto parts = Index(body.packing.parts.size());
+    check_forces_stay(body, [&] {
+        std::mt19937 engine(6);
+        for (int i = 0; i < 3000; ++i) {
+            const Index copy = static_cast<Index>(engine() % unsigned(body.elements.count));
+            reseat_copy(body.packing, body.elements, body.nodes, copy);
+            if (i > 1500) { repack(body.packing, body.elements, body.nodes, i % parts); }
+        }
+        for (int i = 0; i < 150; ++i) {
+            repack(body.packing, body.elements, body.nodes, i % parts);
+        }
+    });
     std::size_t lanes_walked = 0;
     for (const Part& part : body.packing.parts) {
         CHECK(part.alone.size() < 96);
@@ -117,8 +121,6 @@ TEST_CASE("repacking seats copies that cuts left alone in fans again, and forces
         }
     }
     CHECK(lanes_walked < 1.5 * double(body.elements.count));
-    all_forces(body);
-    CHECK(largest_difference(nodal_forces(body), before) < 1e-6 * largest(before));
 }
 
 TEST_CASE("parts of their own viscous times resist as one body of each time does") {
