@@ -10,6 +10,10 @@ namespace {
 
 /// In place of snap_share on torn sheets, so that a blade that goes back along its cut uses that cut again.
 constexpr double snap_share_on_cut = 0.05;
+/// The same in elements with `Cutter::crowd` material tets or more; from `most_crowded` times as many on,
+/// nothing is bisected.
+constexpr double snap_share_in_crowd = 0.25;
+constexpr Index most_crowded = 2;
 
 /// How far beyond its tip a blade sees, as a share of the local grain (cutting.md G.3 by way of
 /// docs/cutting.md, "Shallow cuts").
@@ -189,12 +193,16 @@ void snap_vertices(Cutter& cutter, Blade& blade, const Sweep& sweep) {
     }
 }
 
-/// Some of the tets lie in an element whose material has been cut up so much that only its faces shall be
-/// torn from now on.
-bool is_crowded(const Cutter& cutter, std::span<const Index> tets) {
-    return std::any_of(tets.begin(), tets.end(), [&](Index tet) {
-        return cutter.tet_count[row(cutter.element_of(tet))] >= cutter.crowd;
-    });
+/// How far a vertex may be pulled onto the sheet, m, to spare bisecting the edges `tets` lie around: farther
+/// where an element's material has been cut up a lot, and as far as need be where that has gone on
+/// regardless.
+double reach_of_crowd(const Cutter& cutter, std::span<const Index> tets) {
+    Index most = 0;
+    for (const Index tet : tets) {
+        most = std::max(most, cutter.tet_count[row(cutter.element_of(tet))]);
+    }
+    if (most >= most_crowded * cutter.crowd) { return std::numeric_limits<double>::infinity(); }
+    return most >= cutter.crowd ? snap_share_in_crowd * cutter.grain : 0;
 }
 
 /// The first crossing of an edge stays until it expires, but one above the tip takes the place of one beyond
@@ -213,11 +221,11 @@ void record_crossing(Cutter& cutter, Blade& blade, const Sweep& sweep, const Scr
     const Vec3 normal = find_sheet_normal(cutter, sweep, tet, {of_u.x + of_w.x, of_u.y + of_w.y});
     std::vector<Index>& ring = cutter.scratch.ring;
     find_ring(cutter.material, event.edge, cutter.scratch.walked, ring);
-    if (is_crowded(cutter, ring)) {
+    const double edge = length(material.rest[row(u)] - material.rest[row(w)]);
+    if (std::min(event.t, 1 - event.t) * edge < reach_of_crowd(cutter, ring)) {
         if (!is_soft) { mark_zero(cutter, blade, event.t < 0.5 ? u : w, normal); }
         return;
     }
-    const double edge = length(material.rest[row(u)] - material.rest[row(w)]);
     const double margin = std::min(0.25, snap_share * grain / edge);
     blade.pending.set(u, w,
                       {.t = std::clamp(event.t, margin, 1 - margin),
