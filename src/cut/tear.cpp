@@ -144,9 +144,22 @@ std::vector<ClusterFace> list_cluster_faces(Cutter& cutter, const Blade& blade) 
     return faces;
 }
 
-/// Tears a cluster of flat tets off its neighbours on the side where that is less area, if it has some on
-/// both, and off those whose side does not show before the blade has passed them: a crack to spare harms less
-/// than a bridge.
+/// [side] Area at which the stroke has torn the cluster off the other side already.
+std::array<double, 2> sum_torn_area(const Cutter& cutter, const Blade& blade) {
+    std::array<double, 2> area = {};
+    for (const Index m : cutter.scratch.cluster) {
+        const MaterialTet& tet = cutter.material.tet(m);
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (tet.link[k] >= 0 || std::abs(tet.label[k]) != blade.stroke) { continue; }
+            area[tet.label[k] > 0 ? 1 : 0] += length(face_normal(cutter.material, m, k));
+        }
+    }
+    return area;
+}
+
+/// Tears a cluster of flat tets off its neighbours on one side, and off those whose side does not show before
+/// the blade has passed them: a crack to spare harms less than a bridge. It stays on the side where the
+/// stroke has put it already, or else where that leaves less to tear.
 void tear_cluster(Cutter& cutter, const Blade& blade, CutReport& report) {
     const std::vector<ClusterFace> faces = list_cluster_faces(cutter, blade);
     double clearest = 0;
@@ -158,7 +171,8 @@ void tear_cluster(Cutter& cutter, const Blade& blade, CutReport& report) {
     for (const ClusterFace& face : faces) {
         if (face.clearness >= clear) { area[face.is_positive ? 1 : 0] += face.area; }
     }
-    const bool keeps_positive = area[1] >= area[0];
+    const std::array<double, 2> torn = sum_torn_area(cutter, blade);
+    const bool keeps_positive = torn[0] != torn[1] ? torn[1] > torn[0] : area[1] >= area[0];
     for (const ClusterFace& face : faces) {
         if (face.clearness >= clear && face.is_positive == keeps_positive) { continue; }
         tear_face(cutter, face.at, face.is_positive ? blade.stroke : -blade.stroke, report);
