@@ -470,6 +470,7 @@ Problem build_cutter(Cutter& cutter) {
     }
     mark_held_faces(cutter);
     make_nodes(cutter);
+    mark_held_elements(cutter);
     cutter.pieces.of_copy.grow(cutter.mesh.copy_node.size(), -1);
     label_pieces(cutter);
     cutter.crowd = crowd_unrefined << cutter.setup.options.refine;

@@ -131,14 +131,15 @@ enum class Stage { none, refine, detect, bisect, tear, derive };
 struct Cutter : CutterState {
     Body body = {}; // R; its material is in `material`
     CutterSetup setup = {};
-    std::vector<double> element_volume = {};   // [element] m^3
-    std::vector<double> element_fill = {};     // [element] share that was material at creation
-    std::vector<double> element_weight = {};   // [element] the solver's share of it, all copies together
-    std::vector<std::uint8_t> held_faces = {}; // [element] a bit for each face that lies in a held region
-    double initial_volume = 0;                 // m^3, of the material at creation
-    double mean_volume = 0;                    // m^3, of an element
-    double unit = 1;                           // m, of the integer grid
-    double grain = 0;                          // m, the largest of the material
+    std::vector<double> element_volume = {};      // [element] m^3
+    std::vector<double> element_fill = {};        // [element] share that was material at creation
+    std::vector<double> element_weight = {};      // [element] the solver's share of it, all copies together
+    std::vector<std::uint8_t> held_faces = {};    // [element] a bit for each face that lies in a held region
+    std::vector<std::uint8_t> held_elements = {}; // [element] 1: some of its nodes were held at creation
+    double initial_volume = 0;                    // m^3, of the material at creation
+    double mean_volume = 0;                       // m^3, of an element
+    double unit = 1;                              // m, of the integer grid
+    double grain = 0;                             // m, the largest of the material
     Index crowd = 0;                    // material tets of an element from which it is cut along faces only
     std::vector<Index> near_order = {}; // elements, neighbours close together (near.cpp)
     Stage failing = Stage::none;        // after which an increment is made to fail

@@ -24,15 +24,49 @@ bool holds_face(const Cutter& cutter, const HeldRegion& region, const Tet& eleme
     return true;
 }
 
-/// The copy has skin on a held face of its element that contains the corner.
+bool holds_triangle(const Cutter& cutter, const MaterialTet& tet, std::size_t face) {
+    const MaterialMesh& material = cutter.material;
+    return std::any_of(cutter.setup.held.begin(), cutter.setup.held.end(), [&](const HeldRegion& region) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::size_t v = row(tet.vertex[k]);
+            if (k != face && !holds(region, material.rest[v], material.support[v])) { return false; }
+        }
+        return true;
+    });
+}
+
+/// The corner of the tet's element that its face is nearest to.
+std::size_t find_nearest_corner(const Cutter& cutter, const MaterialTet& tet, std::size_t face) {
+    std::array<double, 4> weight = {};
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (k == face) { continue; }
+        const Support& support = cutter.material.support[row(tet.vertex[k])];
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            weight[corner] += weight_of(support, cutter.element(tet.copy)[corner]);
+        }
+    }
+    return static_cast<std::size_t>(std::max_element(weight.begin(), weight.end()) - weight.begin());
+}
+
+/// The copy has skin on a held face of its element that contains the corner; or, where the element was held
+/// before it was cut, other skin in a held region that is nearest to the corner.
 bool has_held_skin(const Cutter& cutter, Index copy, std::size_t corner) {
-    const unsigned held = cutter.held_faces[row(cutter.mesh.copy_element[row(copy)])] & ~(1U << corner);
-    if (held == 0) { return false; }
+    const std::size_t element = row(cutter.mesh.copy_element[row(copy)]);
+    const unsigned faces = cutter.held_faces[element] & ~(1U << corner);
+    const bool is_cut = cutter.sibling[row(cutter.first_copy[element])] >= 0;
+    const bool counts_all = is_cut && !cutter.held_elements.empty() && cutter.held_elements[element] != 0;
+    if (faces == 0 && !counts_all) { return false; }
     for (Index m = cutter.first_tet[row(copy)]; m >= 0; m = cutter.material.tet(m).next) {
         const MaterialTet& tet = cutter.material.tet(m);
         for (std::size_t k = 0; k < 4; ++k) {
-            const bool is_skin = tet.link[k] < 0 && tet.label[k] == 0 && tet.element_face[k] >= 0;
-            if (is_skin && ((held >> unsigned(tet.element_face[k])) & 1U) != 0) { return true; }
+            if (tet.link[k] >= 0 || tet.label[k] != 0) { continue; }
+            if (tet.element_face[k] >= 0 && ((faces >> unsigned(tet.element_face[k])) & 1U) != 0) {
+                return true;
+            }
+            if (counts_all && find_nearest_corner(cutter, tet, k) == corner &&
+                holds_triangle(cutter, tet, k)) {
+                return true;
+            }
         }
     }
     return false;
@@ -63,6 +97,16 @@ void mark_held_faces(Cutter& cutter) {
         }
         cutter.held_faces.push_back(static_cast<std::uint8_t>(faces));
     }
+}
+
+void mark_held_elements(Cutter& cutter) {
+    std::vector<std::uint8_t> held(cutter.element_volume.size(), 0);
+    for (std::size_t copy = 0; copy < cutter.mesh.copy_node.size(); ++copy) {
+        for (const Index node : cutter.mesh.copy_node[copy]) {
+            held[row(cutter.mesh.copy_element[copy])] |= cutter.mesh.node_held[row(node)];
+        }
+    }
+    cutter.held_elements = std::move(held);
 }
 
 Index find_home(const Cutter& cutter, std::span<const Index> pairs, Index reference) {
