@@ -24,8 +24,9 @@ constexpr std::size_t most_elements_verified = 2000;
 // period.
 constexpr double energy_tolerance = 0.01;
 /// Blades cut without force, but a cut through an element that was cut before moves weight between copies
-/// that move and are strained differently; so a stroke may add this much.
-constexpr double energy_tolerance_of_stroke = 0.15;
+/// that move and are strained differently, and halves of a sliver weigh more than it did; so a stroke may add
+/// this much (docs/cutting.md, "Weights").
+constexpr double energy_tolerance_of_stroke = 0.25;
 
 void check_cutter(const Cutter& cutter, double mass, Verdict& verdict) {
     const std::string broken = find_broken_invariant(cutter);
@@ -99,7 +100,7 @@ public:
         check_expected(case_, *cutter_, verdict_);
         check_sheet();
         count_up(*cutter_, verdict_);
-        list_volumes(update_pieces(*cutter_, of_nodes(move_elements(0))), verdict_);
+        list_volumes(update_pieces(*cutter_, of_nodes(move_elements(0)), cutter_->mesh.node_held), verdict_);
         verdict_.hash = hash_topology(*cutter_);
         return verdict_;
     }

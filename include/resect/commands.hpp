@@ -31,7 +31,7 @@ struct LiftBlade {
 /// Moves element nodes to given displacements (m) in the next step and holds them there; no displacement:
 /// lets them go.
 struct Prescribe {
-    std::vector<Index> nodes = {};
+    std::vector<Index> nodes = {}; // rows of Body::elements.nodes
     std::vector<Vec3> displacement = {};
 };
 

@@ -21,7 +21,7 @@ struct CutTimes {
 
 /// Sums since the advance(), or the cut(), began.
 struct CutReport {
-    Index elements_cut = 0; // elements that have more than one copy now and had one before
+    Index elements_cut = 0; // that have more than one copy now and had one before: none if torn along faces
     Index copies_added = 0, nodes_added = 0;
     Index pieces = 0;  // components of the material, now
     Index refused = 0; // increments in which a blade passed without cutting
@@ -45,7 +45,7 @@ struct Piece {
     double volume = 0; // m^3, at rest
     double mass = 0;   // kg, by the solver's weights
     Vec3 centre = {};  // of volume, now
-    bool held = false; // some of it is fixed
+    bool held = false; // some of it is held or prescribed
 };
 
 /// J. Elastic is that of the law without viscosity; gravity is zero at rest; damped is what both kinds of

@@ -49,8 +49,10 @@ bool has_blade(const Cutter& cutter, Index blade);
 void sweep_blade(Cutter& cutter, Index blade, const Edge& to, std::span<const Vec3f> before,
                  std::span<const Vec3f> after, Delta& delta, CutReport& report);
 
-/// Components of M with stable ids, measured: volume at rest, mass by `copy_weight`, centre as displaced.
-std::span<const Piece> update_pieces(Cutter& cutter, std::span<const Vec3f> displacement);
+/// Components of M with stable ids, measured: volume at rest, mass by `copy_weight`, centre as displaced,
+/// held where nodes are `fixed` [node].
+std::span<const Piece> update_pieces(Cutter& cutter, std::span<const Vec3f> displacement,
+                                     std::span<const std::uint8_t> fixed);
 Index count_pieces(const Cutter& cutter);
 std::span<const Index> piece_of_copy(const Cutter& cutter);
 

@@ -235,7 +235,8 @@ void split_pieces(Cutter& cutter) {
     }
 }
 
-std::span<const Piece> update_pieces(Cutter& cutter, std::span<const Vec3f> displacement) {
+std::span<const Piece> update_pieces(Cutter& cutter, std::span<const Vec3f> displacement,
+                                     std::span<const std::uint8_t> fixed) {
     Rows<Piece>& pieces = cutter.pieces.pieces;
     for (std::size_t id = 0; id < pieces.size(); ++id) {
         pieces.edit(id) = {.id = static_cast<Index>(id)};
@@ -246,7 +247,7 @@ std::span<const Piece> update_pieces(Cutter& cutter, std::span<const Vec3f> disp
         piece.volume += volume_of(cutter, static_cast<Index>(c));
         piece.mass += mesh.copy_weight[c] * cutter.setup.element_mass[row(mesh.copy_element[c])];
         for (const Index node : mesh.copy_node[c]) {
-            piece.held = piece.held || mesh.node_held[row(node)] != 0;
+            piece.held = piece.held || fixed[row(node)] != 0;
         }
         for (Index m = cutter.first_tet[c]; m >= 0; m = cutter.material.tet(m).next) {
             const MaterialTet& tet = cutter.material.tet(m);

@@ -142,7 +142,7 @@ std::vector<double> Simulation::von_mises() const {
 }
 
 std::span<const Piece> Simulation::pieces() {
-    return update_pieces(*engine_->cutter, engine_->nodes.displacement);
+    return update_pieces(*engine_->cutter, engine_->nodes.displacement, engine_->fixed);
 }
 
 std::span<const Recorded> Simulation::record() const { return engine_->record; }

@@ -143,7 +143,7 @@ inline Poses draw_stroke(std::mt19937& random) {
 
 inline std::vector<Piece> pieces_of(Cutter& cutter) {
     const std::vector<Vec3f> rest(cutter.mesh.node_reference.size());
-    const auto pieces = update_pieces(cutter, rest);
+    const auto pieces = update_pieces(cutter, rest, cutter.mesh.node_held);
     return {pieces.begin(), pieces.end()};
 }
 

@@ -148,6 +148,10 @@ TEST_CASE("a body that hangs from prescribed nodes settles") {
     CHECK(report.status == Status::ok);
     CHECK(report.steps > 100);
     CHECK(largest_displacement(simulation) > 1e-3);
+    CHECK(simulation.pieces().front().held);
+    must(simulation.apply(Prescribe{hold.nodes, {}}));
+    simulation.advance(0.01);
+    CHECK(!simulation.pieces().front().held);
 }
 
 TEST_CASE("energy lost in a swing is what the dampings took") {
