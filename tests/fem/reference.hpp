@@ -48,6 +48,7 @@ struct ReferenceBody {
     double mu = 0, bulk = 0, density = 0, viscous_time = 0, damping = 0;
     Vec3 gravity = {};
     std::vector<bool> held;
+    std::vector<double> weight; // [tet] share of its forces; empty: all
     std::vector<double> mass;
     std::vector<Vec3> u, v; // m, and m/s half a step before
 };
@@ -89,11 +90,12 @@ inline void reference_step(ReferenceBody& body, double dt) {
         now[n] += body.u[n] + body.viscous_time * body.v[n];
     }
     std::vector<Vec3> force(now.size(), Vec3{});
-    for (const Tet& tet : body.mesh.tets) {
+    for (std::size_t t = 0; t < body.mesh.tets.size(); ++t) {
+        const Tet& tet = body.mesh.tets[t];
         const auto forces =
             reference_element_forces(edges(body.mesh.nodes, tet), edges(now, tet), body.mu, body.bulk);
         for (std::size_t k = 0; k < 4; ++k) {
-            force[row(tet[k])] += forces[k];
+            force[row(tet[k])] += (body.weight.empty() ? 1.0 : body.weight[t]) * forces[k];
         }
     }
     for (std::size_t n = 0; n < now.size(); ++n) {
