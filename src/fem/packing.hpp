@@ -27,6 +27,7 @@ struct Part {
     std::vector<FanCopies> copies = {}; // [row of tets]
     std::vector<Index> spare = {};      // rows of tets: blocks of single tets with free lanes
     std::vector<Index> alone = {};      // copies that went to such a block, the latest last
+    std::vector<FanBlock> dropped = {}; // rows without a use
 };
 
 /// Where the step finds a copy.

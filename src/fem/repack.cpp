@@ -37,9 +37,10 @@ std::vector<Index> copies_in(const Part& part, const FanBlock& block) {
     return copies;
 }
 
-/// The rows of the block stay behind, without a use.
+/// The rows of the block are for the next one of its kind.
 void drop_block(Part& part, Index block) {
     std::erase(part.spare, part.blocks[row(block)].first_tet);
+    part.dropped.push_back(part.blocks[row(block)]);
     part.blocks.erase(part.blocks.begin() + block);
 }
 

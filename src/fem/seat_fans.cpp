@@ -8,35 +8,56 @@
 namespace resect {
 namespace {
 
-/// Appends a block of `length` with no fan in it; all lanes stand on one node.
-void append_block(Packing& packing, const NodeArrays& nodes, Index part_row, const FanBlock& like,
-                  Index any_node) {
-    const Index slot = slot_for(packing, nodes, part_row, any_node);
-    Part& part = packing.parts[row(part_row)];
+Index node_rows(const FanBlock& block) { return block.length + (block.closed != 0 ? 2 : 3); }
+
+/// The rows of a block that was dropped, of the same kind; or new ones.
+FanBlock take_rows(Part& part, const FanBlock& like) {
     FanBlock block = like;
+    const auto found = std::find_if(part.dropped.begin(), part.dropped.end(), [&](const FanBlock& dropped) {
+        return dropped.length == like.length && dropped.closed == like.closed;
+    });
+    if (found != part.dropped.end()) {
+        block.first_node = found->first_node;
+        block.first_tet = found->first_tet;
+        part.dropped.erase(found);
+        return block;
+    }
     block.first_node = static_cast<int>(part.nodes.size());
     block.first_tet = static_cast<int>(part.tets.size());
+    part.nodes.resize(part.nodes.size() + row(node_rows(block)));
+    part.tets.resize(part.tets.size() + row(block.length));
+    part.copies.resize(part.copies.size() + row(block.length));
+    return block;
+}
+
+/// Adds a block with no fan in it; all lanes stand on one node.
+Index add_block(Packing& packing, const NodeArrays& nodes, Index part_row, const FanBlock& like,
+                Index any_node) {
+    const Index slot = slot_for(packing, nodes, part_row, any_node);
+    Part& part = packing.parts[row(part_row)];
+    const FanBlock block = take_rows(part, like);
     FanNodes standing = {};
     std::fill(std::begin(standing.at), std::end(standing.at),
               static_cast<unsigned>(slot - part.first_slot) * unsigned{sizeof(Row)});
     FanCopies none = {};
     std::fill(std::begin(none.at), std::end(none.at), -1);
-    part.blocks.push_back(block);
-    part.nodes.insert(part.nodes.end(), row(block.length + (block.closed != 0 ? 2 : 3)), standing);
-    part.tets.insert(part.tets.end(), row(block.length), FanTets{});
-    part.copies.insert(part.copies.end(), row(block.length), none);
+    std::fill_n(part.nodes.begin() + block.first_node, node_rows(block), standing);
+    std::fill_n(part.tets.begin() + block.first_tet, block.length, FanTets{});
+    std::fill_n(part.copies.begin() + block.first_tet, block.length, none);
+    const Index before = block_of(part, block.first_tet); // -1: none
+    part.blocks.insert(part.blocks.begin() + before + 1, block);
+    return before + 1;
 }
 
 struct Lane {
-    Index block = -1, lane = -1;
+    Index block = -1, lane = -1; // row of Part::blocks
 };
 
 /// Fans shorter than their block stay on their last node.
 void write_fan(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part_row,
                const Lane& to, const Fan& fan) {
     const FanBlock block = packing.parts[row(part_row)].blocks[row(to.block)];
-    const Index node_rows = block.length + (block.closed != 0 ? 2 : 3);
-    for (Index i = 0; i < node_rows; ++i) {
+    for (Index i = 0; i < node_rows(block); ++i) {
         const Index node = fan.node[row(std::min(i, fan.length + 2))];
         const Index slot = slot_for(packing, nodes, part_row, node);
         Part& part = packing.parts[row(part_row)];
@@ -61,11 +82,10 @@ float shear_over_resistance(const Elements& elements, Index copy) {
 void append_fans(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part,
                  std::span<const Fan> fans, float shear_over_resistance) {
     const auto append = [&](std::span<const Fan* const> of_one_block, Index length, bool closed) {
-        append_block(
+        const Index block = add_block(
             packing, nodes, part,
             {.length = length, .closed = closed ? 1 : 0, .shear_over_resistance = shear_over_resistance},
             of_one_block.front()->node[0]);
-        const Index block = static_cast<Index>(packing.parts[row(part)].blocks.size()) - 1;
         for (std::size_t lane = 0; lane < of_one_block.size(); ++lane) {
             write_fan(packing, elements, nodes, part, {block, static_cast<Index>(lane)}, *of_one_block[lane]);
         }
@@ -113,10 +133,10 @@ void seat_alone(Packing& packing, const Elements& elements, const NodeArrays& no
     const Tet node = corners(elements, copy);
     Lane lane = find_spare_lane(packing.parts[row(part_row)], ratio);
     if (lane.block < 0) {
-        append_block(packing, nodes, part_row, {.length = 1, .shear_over_resistance = ratio}, node[0]);
+        lane = {add_block(packing, nodes, part_row, {.length = 1, .shear_over_resistance = ratio}, node[0]),
+                0};
         Part& part = packing.parts[row(part_row)];
-        lane = {static_cast<Index>(part.blocks.size()) - 1, 0};
-        part.spare.push_back(part.blocks.back().first_tet);
+        part.spare.push_back(part.blocks[row(lane.block)].first_tet);
     }
     packing.parts[row(part_row)].alone.push_back(copy);
     write_fan(packing, elements, nodes, part_row, lane,

@@ -105,6 +105,7 @@ void archive_packing(Archive& archive, Packing& packing) {
         archive.rows(part.copies);
         archive.rows(part.spare);
         archive.rows(part.alone);
+        archive.rows(part.dropped);
     });
     archive.rows(packing.seats);
     archive.value(packing.quanta_a_metre);

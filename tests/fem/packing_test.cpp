@@ -123,6 +123,23 @@ TEST_CASE("repacking seats copies that cuts left alone in fans again, and forces
     CHECK(lanes_walked < 1.5 * double(body.elements.count));
 }
 
+TEST_CASE("however often copies are seated anew, a packing does not grow without bound") {
+    TestBody body = make_shaken();
+    const auto parts = Index(body.packing.parts.size());
+    std::mt19937 engine(8);
+    std::size_t in_the_middle = 0;
+    for (int round = 0; round < 20; ++round) {
+        for (int i = 0; i < 6000; ++i) {
+            const Index copy = static_cast<Index>(engine() % unsigned(body.elements.count));
+            reseat_copy(body.packing, body.elements, body.nodes, copy);
+            repack(body.packing, body.elements, body.nodes, i % parts);
+        }
+        if (round == 11) { in_the_middle = bytes_of(body.packing); }
+    }
+    CHECK(find_packing_fault(body.packing, body.elements).empty());
+    CHECK(double(bytes_of(body.packing)) < 1.03 * double(in_the_middle));
+}
+
 TEST_CASE("parts of their own viscous times resist as one body of each time does") {
     TestBody mixed = make_shaken(0);
     for (Index copy = 5000; copy < mixed.elements.count; ++copy) {
