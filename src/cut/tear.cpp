@@ -172,7 +172,8 @@ void tear_cluster(Cutter& cutter, const Blade& blade, CutReport& report) {
         if (face.clearness >= clear) { area[face.is_positive ? 1 : 0] += face.area; }
     }
     const std::array<double, 2> torn = sum_torn_area(cutter, blade);
-    const bool keeps_positive = torn[0] != torn[1] ? torn[1] > torn[0] : area[1] >= area[0];
+    const bool may_stay = area[torn[1] > torn[0] ? 1 : 0] > 0; // else it would come free
+    const bool keeps_positive = torn[0] != torn[1] && may_stay ? torn[1] > torn[0] : area[1] >= area[0];
     for (const ClusterFace& face : faces) {
         if (face.clearness >= clear && face.is_positive == keeps_positive) { continue; }
         tear_face(cutter, face.at, face.is_positive ? blade.stroke : -blade.stroke, report);
