@@ -134,6 +134,8 @@ void weaken_strained(Engine& engine);
 // step.cpp
 /// Forces of the present state, for node_update and settle.
 void compute_forces(Engine& engine);
+/// From these forces to the next state, in nodes.next_*.
+StepSums update_nodes(Engine& engine);
 /// One step of the motion; false: it diverged, and the state is the one before. After it, nodes.next_* hold
 /// the state before.
 bool step_motion(Engine& engine);

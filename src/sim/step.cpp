@@ -13,22 +13,6 @@ namespace {
 // them.
 constexpr Index nodes_a_chunk = 1024;
 
-Index node_count(const Engine& engine) { return static_cast<Index>(engine.nodes.mass.size()); }
-
-StepSums update_nodes(Engine& engine) {
-    const Index count = node_count(engine), chunks = chunk_count(nodes_a_chunk, count);
-    engine.sums.resize(static_cast<std::size_t>(chunks));
-    engine.workers.run(chunks, [&](Index chunk) {
-        const auto [begin, end] = chunk_range(chunk, nodes_a_chunk, count);
-        engine.sums[row(chunk)] = node_update(engine.packing, engine.nodes, engine.constants, {begin, end});
-    });
-    StepSums total;
-    for (const StepSums& part : engine.sums) {
-        total = total + part;
-    }
-    return total;
-}
-
 /// Prescribed nodes arrive where they are told within one step and stay.
 void move_prescribed(Engine& engine) {
     if (engine.prescribed.empty()) { return; }
@@ -58,6 +42,21 @@ void compute_forces(Engine& engine) {
     engine.workers.run(static_cast<Index>(engine.packing.parts.size()), [&](Index part) {
         element_forces(engine.elements, engine.nodes, engine.packing, part);
     });
+}
+
+StepSums update_nodes(Engine& engine) {
+    const Index count = static_cast<Index>(engine.nodes.mass.size());
+    const Index chunks = chunk_count(nodes_a_chunk, count);
+    engine.sums.resize(static_cast<std::size_t>(chunks));
+    engine.workers.run(chunks, [&](Index chunk) {
+        const auto [begin, end] = chunk_range(chunk, nodes_a_chunk, count);
+        engine.sums[row(chunk)] = node_update(engine.packing, engine.nodes, engine.constants, {begin, end});
+    });
+    StepSums total;
+    for (const StepSums& part : engine.sums) {
+        total = total + part;
+    }
+    return total;
 }
 
 bool step_motion(Engine& engine) {
