@@ -20,7 +20,7 @@ constexpr int repeats = 5;
 
 Json measure(Index elements, int threads) {
     Setup setup{.body = must(make_liver({.elements = elements})),
-                .materials = {{.young = 5e4}},
+
                 .damping = 2,
                 .threads = threads};
     setup.fixed = {{.box = {.lo = {-1, -1, -1}, .hi = {-0.04, 1, 1}}}};

@@ -101,12 +101,12 @@ void add_ceilings(Json& row, double flops, double bytes) {
 void print_row(const Json& row) {
     fmt::print(
         "step  {:17} {} thread(s), {:6}: {:6.1f} M element updates/s (median {:.1f}), {:8.1f} us a step "
-        "(forces {:.1f}, nodes {:.1f}), {:3.0f} % of FMA, {:5.0f} B an element, {:6.1f} times real time\n",
+        "(forces {:.1f}, nodes {:.1f}), {:3.0f} % of FMA, {:3.0f} % of reads, {:6.1f} times real time\n",
         row["mesh"].get<std::string>(), row["threads"].get<int>(), row["isa"].get<std::string>(),
         1e-6 * row["updates_per_s"]["best"].get<double>(),
         1e-6 * row["updates_per_s"]["median"].get<double>(), row["step_us"].get<double>(),
         row["stages"]["forces_us"].get<double>(), row["stages"]["nodes_us"].get<double>(),
-        100 * row["share_of_flops"].get<double>(), row["stages"]["bytes_an_element"].get<double>(),
+        100 * row["share_of_flops"].get<double>(), 100 * row["share_of_read_bandwidth"].get<double>(),
         row["real_time_factor"].get<double>());
 }
 

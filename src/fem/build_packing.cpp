@@ -13,6 +13,7 @@ namespace {
 
 constexpr Index copies_a_part = 3000;
 constexpr Index parts_at_most = 64;
+constexpr Index copies_a_cell = 640;
 constexpr Index copies_a_leaf = 32; // of the order within a part
 
 float viscous_time_of(const Elements& elements, Index copy) {
@@ -133,15 +134,37 @@ void reserve_rows(Part& part) {
     reserve_ahead(part.tets, 2);
     reserve_ahead(part.copies, 2);
     part.spare.reserve(64);
-    part.alone.reserve(1024);
+    for (Cell& cell : part.cells) {
+        reserve_ahead(cell.copies, 2);
+    }
+}
+
+/// Cells of copies that follow one another.
+void divide_part(Packing& packing, Part& part, std::span<const Index> copies) {
+    const std::size_t count = std::max<std::size_t>(1, copies.size() / row(copies_a_cell));
+    for (std::size_t cell = 0; cell < count; ++cell) {
+        const std::size_t begin = copies.size() * cell / count, end = copies.size() * (cell + 1) / count;
+        part.cells.emplace_back().copies.assign(copies.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                copies.begin() + static_cast<std::ptrdiff_t>(end));
+        for (const Index copy : part.cells.back().copies) {
+            packing.seats[row(copy)].cell = static_cast<Index>(cell);
+        }
+    }
 }
 
 } // namespace
 
-void pack_copies(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part,
-                 std::span<const Index> copies) {
+void sort_apart(const Elements& elements, const NodeArrays& nodes, std::span<Index> copies,
+                std::size_t count) {
+    std::vector<PlacedCopy> places = place_copies(elements, nodes, copies);
+    halve(places, count);
+    std::transform(places.begin(), places.end(), copies.begin(),
+                   [](const PlacedCopy& place) { return place.copy; });
+}
+
+void pack_cell(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part, Index cell) {
     std::map<float, std::vector<Index>> by_material;
-    for (const Index copy : copies) {
+    for (const Index copy : packing.parts[row(part)].cells[row(cell)].copies) {
         by_material[shear_over_resistance(elements, copy)].push_back(copy);
     }
     for (const auto& [ratio, alike] : by_material) {
@@ -157,6 +180,7 @@ void pack_copies(Packing& packing, const Elements& elements, const NodeArrays& n
         }
         append_fans(packing, elements, nodes, part, fans, ratio);
     }
+    packing.parts[row(part)].cells[row(cell)].moved = 0;
 }
 
 Packing build_packing(const Elements& elements, const NodeArrays& nodes) {
@@ -178,7 +202,10 @@ Packing build_packing(const Elements& elements, const NodeArrays& nodes) {
         for (const Index node : used) {
             slot_for(packing, nodes, index, node);
         }
-        pack_copies(packing, elements, nodes, index, copies);
+        divide_part(packing, packing.parts.back(), copies);
+        for (std::size_t cell = 0; cell < packing.parts.back().cells.size(); ++cell) {
+            pack_cell(packing, elements, nodes, index, static_cast<Index>(cell));
+        }
         reserve_rows(packing.parts.back());
     }
     return packing;

@@ -25,24 +25,40 @@ struct EdgeRow {
 /// The pair (from, to) of corners in the order that makes (edge, from, to) a positive tet.
 constexpr int across[6][2] = {{2, 3}, {3, 1}, {1, 2}, {0, 3}, {2, 0}, {0, 1}};
 
+Link make_link(const Tet& tet, Index row_of_tet, std::size_t edge) {
+    const auto corner = [&](int k) { return tet[row(k)]; };
+    Link link = {corner(edge_corners[edge][0]), corner(edge_corners[edge][1]), corner(across[edge][0]),
+                 corner(across[edge][1]), row_of_tet};
+    if (link.a > link.b) {
+        std::swap(link.a, link.b);
+        std::swap(link.c, link.d);
+    }
+    return link;
+}
+
+/// By a, then b, then tet.
 std::vector<Link> find_links(std::span<const Tet> tets) {
-    std::vector<Link> links;
-    links.reserve(6 * tets.size());
+    struct Key {
+        std::uint64_t edge;
+        Index tet, of_tet;
+    };
+    std::vector<Key> keys;
+    keys.reserve(6 * tets.size());
     for (std::size_t t = 0; t < tets.size(); ++t) {
-        for (int edge = 0; edge < 6; ++edge) {
-            const auto corner = [&](int k) { return tets[t][row(k)]; };
-            Link link = {corner(edge_corners[edge][0]), corner(edge_corners[edge][1]),
-                         corner(across[edge][0]), corner(across[edge][1]), static_cast<Index>(t)};
-            if (link.a > link.b) {
-                std::swap(link.a, link.b);
-                std::swap(link.c, link.d);
-            }
-            links.push_back(link);
+        for (std::size_t edge = 0; edge < 6; ++edge) {
+            const auto [low, high] =
+                std::minmax(tets[t][row(edge_corners[edge][0])], tets[t][row(edge_corners[edge][1])]);
+            keys.push_back({std::uint64_t{row(low)} << 32U | row(high), static_cast<Index>(t),
+                            static_cast<Index>(edge)});
         }
     }
-    std::sort(links.begin(), links.end(), [](const Link& p, const Link& q) {
-        return p.a != q.a ? p.a < q.a : p.b != q.b ? p.b < q.b : p.tet < q.tet;
-    });
+    std::sort(keys.begin(), keys.end(),
+              [](const Key& p, const Key& q) { return p.edge != q.edge ? p.edge < q.edge : p.tet < q.tet; });
+    std::vector<Link> links;
+    links.reserve(keys.size());
+    for (const Key& key : keys) {
+        links.push_back(make_link(tets[row(key.tet)], key.tet, row(key.of_tet)));
+    }
     return links;
 }
 

@@ -20,9 +20,11 @@ float shear_over_resistance(const Elements& elements, Index copy);
 /// Room for the slots of a part that has none yet.
 void reserve_slots(Packing& packing, Index part, Index nodes);
 
-/// Covers copies of a part with fans and appends them to its blocks.
-void pack_copies(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part,
-                 std::span<const Index> copies);
+/// Covers the copies of a cell with fans and adds their blocks; they sit nowhere.
+void pack_cell(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part, Index cell);
+/// Sorts copies so that the first `count` lie on one side.
+void sort_apart(const Elements& elements, const NodeArrays& nodes, std::span<Index> copies,
+                std::size_t count);
 /// Fans of one material, whose tets are copies.
 void append_fans(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part,
                  std::span<const Fan> fans, float shear_over_resistance);

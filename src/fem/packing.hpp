@@ -15,6 +15,13 @@ struct FanCopies {
     Index at[fan_lanes];
 };
 
+/// Copies of a part that lie together: fans do not reach from one cell into another, nor do blocks, but for
+/// those of single tets.
+struct Cell {
+    std::vector<Index> copies = {};
+    Index moved = 0; // copies seated alone since it was packed
+};
+
 /// Copies that lie together and share a viscous time, in fans, with their own positions and forces of the
 /// nodes that they hang on: slots [first_slot, first_slot + slots) of Packing.
 struct Part {
@@ -26,13 +33,14 @@ struct Part {
     std::vector<FanTets> tets = {};
     std::vector<FanCopies> copies = {}; // [row of tets]
     std::vector<Index> spare = {};      // rows of tets: blocks of single tets with free lanes
-    std::vector<Index> alone = {};      // copies that went to such a block, the latest last
+    std::vector<Cell> cells = {};
     std::vector<FanBlock> dropped = {}; // rows without a use
 };
 
 /// Where the step finds a copy.
 struct Seat {
     Index part = -1, tet = 0, lane = 0; // row of Part::tets
+    Index cell = 0;                     // row of Part::cells
 };
 
 /// What the step works on: copies as fans, nodes as slots, one a part that they hang in. Made from Elements
@@ -65,8 +73,7 @@ void reseat_copy(Packing& packing, const Elements& elements, const NodeArrays& n
 /// A copy of which only the weight or the material changed.
 void refresh_copy(Packing& packing, const Elements& elements, Index copy);
 
-/// Seats copies that cuts left alone in fans again, and copies of blocks that cuts left half empty alone: a
-/// small part of the work, for one part of the packing.
+/// Packs the cell of a part anew of which cuts have moved the most, if they have moved enough.
 void repack(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part);
 
 /// The four slots of a seated copy, in the order of its fan.

@@ -7,80 +7,68 @@
 namespace resect {
 namespace {
 
-constexpr std::size_t at_least = 96, at_most = 160; // copies alone that one call seats in fans
+constexpr Index worn = 16;               // a cell is: one in so many of its copies has been moved
+constexpr std::size_t most_packed = 960; // copies at a time
 
-bool is_alone(const Packing& packing, Index part_row, Index copy) {
-    const Seat& seat = packing.seats[row(copy)];
-    const Part& part = packing.parts[row(part_row)];
-    return seat.part == part_row && part.blocks[row(block_of(part, seat.tet))].length == 1;
+/// The row of the cell with the largest share of copies moved, or -1 if none is worn.
+Index find_worn_cell(const Part& part) {
+    const auto is_less_worn = [](const Cell& a, const Cell& b) {
+        return std::int64_t{a.moved} * std::ssize(b.copies) < std::int64_t{b.moved} * std::ssize(a.copies);
+    };
+    const auto most = std::max_element(part.cells.begin(), part.cells.end(), is_less_worn);
+    const bool is_worn = std::int64_t{worn} * most->moved > std::ssize(most->copies);
+    return is_worn ? static_cast<Index>(most - part.cells.begin()) : -1;
 }
 
-/// The earliest that are alone still, each once.
-std::vector<Index> take_alone(Packing& packing, Index part_row) {
-    std::vector<Index>& alone = packing.parts[row(part_row)].alone;
-    const std::size_t count = std::min(alone.size(), at_most);
-    std::vector<Index> taken(alone.begin(), alone.begin() + static_cast<std::ptrdiff_t>(count));
-    alone.erase(alone.begin(), alone.begin() + static_cast<std::ptrdiff_t>(count));
-    std::sort(taken.begin(), taken.end());
-    taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
-    std::erase_if(taken, [&](Index copy) { return !is_alone(packing, part_row, copy); });
-    return taken;
-}
-
-std::vector<Index> copies_in(const Part& part, const FanBlock& block) {
-    std::vector<Index> copies;
-    for (Index tet = block.first_tet; tet < block.first_tet + block.length; ++tet) {
-        const auto& at = part.copies[row(tet)].at;
-        std::copy_if(std::begin(at), std::end(at), std::back_inserter(copies),
-                     [](Index c) { return c >= 0; });
-    }
-    return copies;
-}
-
-/// The rows of the block are for the next one of its kind.
-void drop_block(Part& part, Index block) {
-    std::erase(part.spare, part.blocks[row(block)].first_tet);
-    part.dropped.push_back(part.blocks[row(block)]);
-    part.blocks.erase(part.blocks.begin() + block);
-}
-
-void drop_empty_blocks(Part& part) {
-    for (Index block = static_cast<Index>(part.blocks.size()) - 1; block >= 0; --block) {
-        if (copies_in(part, part.blocks[row(block)]).empty()) { drop_block(part, block); }
-    }
-}
-
-/// The first block of fans of which cuts have left less than three quarters. What becomes alone is too little
-/// to bring the next call about by itself.
-void dissolve_one(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part_row) {
+/// One half of a cell that has grown becomes a cell of its own, which comes next.
+void split_cell(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part_row,
+                Index cell) {
     Part& part = packing.parts[row(part_row)];
-    for (Index block = 0; block < static_cast<Index>(part.blocks.size()); ++block) {
-        const Index length = part.blocks[row(block)].length;
-        const std::vector<Index> copies = copies_in(part, part.blocks[row(block)]);
-        const bool is_full = 4 * copies.size() > 3 * row(length * fan_lanes);
-        if (length == 1 || is_full || copies.size() >= at_least) { continue; }
-        for (const Index copy : copies) {
-            leave_seat(packing, copy);
-        }
-        drop_block(part, block);
-        for (const Index copy : copies) {
-            seat_alone(packing, elements, nodes, part_row, copy);
-        }
-        return;
+    std::vector<Index> low = part.cells[row(cell)].copies;
+    const auto half = low.begin() + std::ssize(low) / 2;
+    sort_apart(elements, nodes, low, low.size() / 2);
+    Cell high;
+    high.copies.assign(half, low.end());
+    high.moved = static_cast<Index>(high.copies.size());
+    low.erase(half, low.end());
+    for (const Index copy : high.copies) {
+        packing.seats[row(copy)].cell = static_cast<Index>(part.cells.size());
     }
+    part.cells[row(cell)].copies = std::move(low);
+    part.cells.push_back(std::move(high));
+}
+
+bool is_empty(const Part& part, const FanBlock& block) {
+    return std::all_of(part.copies.begin() + block.first_tet,
+                       part.copies.begin() + block.first_tet + block.length, [](const FanCopies& copies) {
+                           return std::all_of(std::begin(copies.at), std::end(copies.at),
+                                              [](Index copy) { return copy < 0; });
+                       });
+}
+
+/// Their rows are for the next blocks of their kind.
+void drop_empty_blocks(Part& part) {
+    std::erase_if(part.blocks, [&](const FanBlock& block) {
+        if (!is_empty(part, block)) { return false; }
+        std::erase(part.spare, block.first_tet);
+        part.dropped.push_back(block);
+        return true;
+    });
 }
 
 } // namespace
 
 void repack(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part_row) {
-    if (packing.parts[row(part_row)].alone.size() < at_least) { return; }
-    const std::vector<Index> copies = take_alone(packing, part_row);
-    for (const Index copy : copies) {
+    const Index cell = find_worn_cell(packing.parts[row(part_row)]);
+    if (cell < 0) { return; }
+    if (packing.parts[row(part_row)].cells[row(cell)].copies.size() > most_packed) {
+        split_cell(packing, elements, nodes, part_row, cell);
+    }
+    for (const Index copy : packing.parts[row(part_row)].cells[row(cell)].copies) {
         leave_seat(packing, copy);
     }
-    pack_copies(packing, elements, nodes, part_row, copies);
-    dissolve_one(packing, elements, nodes, part_row);
     drop_empty_blocks(packing.parts[row(part_row)]);
+    pack_cell(packing, elements, nodes, part_row, cell);
 }
 
 } // namespace resect

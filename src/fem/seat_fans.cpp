@@ -66,7 +66,10 @@ void write_fan(Packing& packing, const Elements& elements, const NodeArrays& nod
     }
     for (Index j = 0; j < fan.length; ++j) {
         const Index copy = fan.tet[row(j)];
-        packing.seats[row(copy)] = {part_row, block.first_tet + j, to.lane};
+        Seat& seat = packing.seats[row(copy)];
+        seat.part = part_row;
+        seat.tet = block.first_tet + j;
+        seat.lane = to.lane;
         packing.parts[row(part_row)].copies[row(block.first_tet + j)].at[to.lane] = copy;
         write_tet(packing, elements, copy);
     }
@@ -138,7 +141,7 @@ void seat_alone(Packing& packing, const Elements& elements, const NodeArrays& no
         Part& part = packing.parts[row(part_row)];
         part.spare.push_back(part.blocks[row(lane.block)].first_tet);
     }
-    packing.parts[row(part_row)].alone.push_back(copy);
+    ++packing.parts[row(part_row)].cells[row(packing.seats[row(copy)].cell)].moved;
     write_fan(packing, elements, nodes, part_row, lane,
               {.length = 1, .node = {node[0], node[1], node[2], node[3]}, .tet = {copy}});
 }
@@ -155,7 +158,10 @@ void leave_seat(Packing& packing, Index copy) {
 void seat_new_copy(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index copy,
                    Index parent) {
     packing.seats.resize(std::max(packing.seats.size(), row(copy) + 1));
-    seat_alone(packing, elements, nodes, packing.seats[row(parent)].part, copy);
+    const Seat& beside = packing.seats[row(parent)];
+    packing.seats[row(copy)].cell = beside.cell;
+    packing.parts[row(beside.part)].cells[row(beside.cell)].copies.push_back(copy);
+    seat_alone(packing, elements, nodes, beside.part, copy);
 }
 
 void reseat_copy(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index copy) {

@@ -104,7 +104,10 @@ void archive_packing(Archive& archive, Packing& packing) {
         archive.rows(part.tets);
         archive.rows(part.copies);
         archive.rows(part.spare);
-        archive.rows(part.alone);
+        archive_each(archive, part.cells, [&](Cell& cell) {
+            archive.rows(cell.copies);
+            archive.value(cell.moved);
+        });
         archive.rows(part.dropped);
     });
     archive.rows(packing.seats);
