@@ -35,6 +35,25 @@ struct Prescribe {
     std::vector<Vec3> displacement = {};
 };
 
+/// Takes hold of the tissue whose material lies within `radius` of `at` now, m: it follows the grasp, and is
+/// pinned while that does not move. What is fixed or held already stays as it is.
+struct Grasp {
+    Index grasp = 0;
+    Vec3 at = {};
+    double radius = 0;
+};
+
+/// Moves a grasp, in a straight line spread evenly over the next Simulation::advance().
+struct MoveGrasp {
+    Index grasp = 0;
+    Vec3 to = {};
+};
+
+/// Lets go.
+struct Release {
+    Index grasp = 0;
+};
+
 struct SetGravity {
     Vec3 gravity = {}; // m/s^2
 };
@@ -45,11 +64,12 @@ struct SetGravity {
 struct Undo {};
 
 /// One vocabulary for C++, scenes and records.
-using Command = std::variant<MoveBlade, LiftBlade, Prescribe, SetGravity, Undo>;
+using Command = std::variant<MoveBlade, LiftBlade, Prescribe, SetGravity, Undo, Grasp, MoveGrasp, Release>;
 
 struct Recorded {
-    std::int64_t step = 0;
+    std::int64_t step = 0; // since creation, at which it was told
     Command command = {};
+    std::int64_t until = 0; // step at which the advance() after it ended: blades and grasps had arrived
 };
 
 } // namespace resect

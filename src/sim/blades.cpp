@@ -38,6 +38,7 @@ void append_nodes(Engine& engine, std::span<const Delta::NewNode> added) {
         nodes.mass.push_back(0);
         nodes.inverse_mass.push_back(0);
     }
+    update_grasps(engine, added);
 }
 
 /// Copies that a cut made, moved to other nodes or weighed anew, in the order of their rows.

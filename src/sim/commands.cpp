@@ -11,7 +11,12 @@ namespace resect {
 namespace {
 
 constexpr Index blades_at_most = 64;
+constexpr Index grasps_at_most = 64;
 constexpr double farthest = 1e6; // m; beyond it a pose is a mistake
+
+bool is_near(const Vec3& p) {
+    return std::all_of(p.begin(), p.end(), [](double x) { return std::abs(x) <= farthest; });
+}
 
 Result<void> check_blade(Index blade) {
     if (0 <= blade && blade < blades_at_most) { return {}; }
@@ -107,6 +112,64 @@ Result<void> apply_one(Engine& engine, const Prescribe& told) {
     return {};
 }
 
+std::vector<GraspWay>::iterator find_grasp(Engine& engine, Index grasp) {
+    return std::find_if(engine.grasps.begin(), engine.grasps.end(),
+                        [grasp](const GraspWay& way) { return way.grasp >= grasp; });
+}
+
+bool is_there(const Engine& engine, std::vector<GraspWay>::iterator way, Index grasp) {
+    return way != engine.grasps.end() && way->grasp == grasp;
+}
+
+Result<void> check_grasp(Index grasp, const Vec3& at) {
+    if (grasp < 0 || grasp >= grasps_at_most) {
+        return Error{fmt::format("grasp {}: grasps are numbered 0 to {}", grasp, grasps_at_most - 1)};
+    }
+    if (!is_near(at)) {
+        return Error{fmt::format("grasp {}: the point must be finite and within {:g} m of the origin", grasp,
+                                 farthest)};
+    }
+    return {};
+}
+
+Result<void> apply_one(Engine& engine, const Grasp& told) {
+    if (Result<void> checked = check_grasp(told.grasp, told.at); !checked) { return checked; }
+    const auto way = find_grasp(engine, told.grasp);
+    if (is_there(engine, way, told.grasp)) {
+        return Error{fmt::format("grasp {}: holds tissue already; release it first", told.grasp)};
+    }
+    std::vector<GraspedNode> nodes = find_grasped(engine, told.at, told.radius);
+    if (nodes.empty()) {
+        return Error{
+            fmt::format("grasp {}: no free tissue within {:g} m of the point; grasp nearer to the body, "
+                        "or by a larger radius",
+                        told.grasp, told.radius)};
+    }
+    engine.grasps.insert(way, {told.grasp, told.at, told.at, told.radius, std::move(nodes)});
+    update_all_conditions(engine);
+    return {};
+}
+
+Result<void> apply_one(Engine& engine, const MoveGrasp& move) {
+    if (Result<void> checked = check_grasp(move.grasp, move.to); !checked) { return checked; }
+    const auto way = find_grasp(engine, move.grasp);
+    if (!is_there(engine, way, move.grasp)) {
+        return Error{fmt::format("grasp {}: holds nothing that could be moved; grasp first", move.grasp)};
+    }
+    way->to = move.to;
+    return {};
+}
+
+Result<void> apply_one(Engine& engine, const Release& told) {
+    const auto way = find_grasp(engine, told.grasp);
+    if (!is_there(engine, way, told.grasp)) {
+        return Error{fmt::format("grasp {}: holds nothing that could be released", told.grasp)};
+    }
+    engine.grasps.erase(way);
+    update_all_conditions(engine);
+    return {};
+}
+
 Result<void> apply_one(Engine& engine, const SetGravity& set) {
     if (Result<void> checked = check_gravity(set.gravity); !checked) { return checked; }
     engine.constants.gravity = to_float(set.gravity);
@@ -121,10 +184,7 @@ Result<void> apply_one(Engine& engine, const Undo&) {
 } // namespace
 
 Result<void> check_edge(const Edge& edge) {
-    const auto sound = [](const Vec3& p) {
-        return std::all_of(p.begin(), p.end(), [](double x) { return std::abs(x) <= farthest; });
-    };
-    if (!sound(edge.heel) || !sound(edge.tip)) {
+    if (!is_near(edge.heel) || !is_near(edge.tip)) {
         return Error{fmt::format("heel and tip must be finite and within {:g} m of the origin", farthest)};
     }
     if (!(length(edge.heel - edge.tip) > 0)) {

@@ -41,7 +41,7 @@ void apply_loads(Engine& engine) {
 }
 
 /// Owners may change with any cut, so nobody keeps what was told before.
-void hold_prescribed(Engine& engine) {
+void hold_what_is_told(Engine& engine) {
     const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
     for (std::size_t node = 0; node < mesh.node_mass.size(); ++node) {
         engine.nodes.inverse_mass[node] =
@@ -50,6 +50,11 @@ void hold_prescribed(Engine& engine) {
     for (const auto& told : engine.prescribed) {
         for (const Index node : find_owners(engine, told.first)) {
             engine.nodes.inverse_mass[row(node)] = 0;
+        }
+    }
+    for (const GraspWay& way : engine.grasps) {
+        for (const GraspedNode& grasped : way.nodes) {
+            engine.nodes.inverse_mass[row(grasped.node)] = 0;
         }
     }
 }
@@ -71,8 +76,8 @@ void update_conditions(Engine& engine, std::span<const Index> touched) {
     const auto note_fixed = [&](std::size_t node) {
         engine.fixed[node] = nodes.inverse_mass[node] == 0 ? 1 : 0;
     };
-    if (!engine.prescribed.empty()) {
-        hold_prescribed(engine);
+    if (!engine.prescribed.empty() || !engine.grasps.empty()) {
+        hold_what_is_told(engine);
         for (std::size_t node = 0; node < engine.fixed.size(); ++node) {
             note_fixed(node);
         }

@@ -49,6 +49,19 @@ struct BladeWay {
     double begun = 0; // share of the way from the pose before to poses.front() that is behind it
 };
 
+/// A node that follows a grasp: its displacement less where the grasp is, m.
+struct GraspedNode {
+    Index node = 0;
+    Vec3 offset = {};
+};
+
+struct GraspWay {
+    Index grasp = 0;
+    Vec3 at = {}, to = {}; // m
+    double radius = 0;     // m
+    std::vector<GraspedNode> nodes = {};
+};
+
 /// What left the motion, J.
 struct Work {
     double internal = 0; // taken by the internal forces, elastic and viscous together
@@ -66,6 +79,7 @@ struct EngineState {
     std::map<Index, Vec3> prescribed = {};        // displacement by row of Body::elements.nodes, m
     std::vector<std::vector<Index>> classes = {}; // [row of Body::elements.nodes] its simulation nodes
     std::vector<BladeWay> blades = {};            // in id order
+    std::vector<GraspWay> grasps = {};            // in id order
     std::vector<Vec3f> swept = {};                // displacement up to which blades have swept [node]
     std::int64_t step = 0;                        // since creation
     std::int64_t clock_start = 0;                 // step at which time is zero
@@ -90,9 +104,11 @@ struct SavedEngine {
 struct Engine : EngineState {
     Model model = {};
     CutterPtr cutter = {};
-    double time_step = 0; // s
+    double time_step = 0;  // s
+    std::int64_t left = 1; // steps, this one included, over which grasps arrive
     Workers workers;
     std::vector<Recorded> record = {};
+    std::size_t carried_out = 0;           // of record: commands before the last advance()
     std::vector<SavedEngine> strokes = {}; // what the last ones began with
     CutReport between = {};                // what commands cut since the last advance()
 
@@ -163,6 +179,14 @@ void sweep_blades(Engine& engine, std::int64_t left, CutReport& report);
 bool cut_through(Engine& engine, const BladeWay& way, CutReport& report);
 /// Sweeps one blade through tissue that is held still.
 void sweep_still(Engine& engine, Index blade, const Edge& from, const Edge& to, CutReport& report);
+
+// grasps.cpp
+/// Free nodes whose material lies within `radius` of a point now.
+std::vector<GraspedNode> find_grasped(const Engine& engine, const Vec3& at, double radius);
+/// Takes what is grasped one step further.
+void move_grasps(Engine& engine);
+/// After a cut: nodes are grasped, or not any more, by where their material is.
+void update_grasps(Engine& engine, std::span<const Delta::NewNode> added);
 
 // commands.cpp
 Result<void> check_edge(const Edge& edge);

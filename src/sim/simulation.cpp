@@ -26,6 +26,12 @@ StepReport diverged(Engine& engine, StepReport report) {
     return report;
 }
 
+void note_arrival(Engine& engine, std::int64_t step) {
+    for (; engine.carried_out < engine.record.size(); ++engine.carried_out) {
+        engine.record[engine.carried_out].until = step;
+    }
+}
+
 /// Some blade has yet to go where it was told to.
 bool is_under_way(const Engine& engine) {
     return std::any_of(engine.blades.begin(), engine.blades.end(),
@@ -62,11 +68,15 @@ StepReport Simulation::advance(double seconds) {
     // The small excess lets n times a step of 1 / n make n steps, whatever the rounding.
     const std::int64_t steps = static_cast<std::int64_t>(std::floor(asked + 1e-6));
     report.cut = std::exchange(engine.between, {});
+    if (steps > 0) { note_arrival(engine, engine.step + steps); }
     engine.carried += seconds - static_cast<double>(steps) * engine.time_step;
     const std::int64_t stride =
         std::max<std::int64_t>(1, static_cast<std::int64_t>(sweep_every / engine.time_step));
     while (report.steps < steps) {
-        if (!step_motion(engine)) { return diverged(engine, report); }
+        engine.left = steps - report.steps;
+        const bool is_sound = step_motion(engine);
+        engine.left = 1;
+        if (!is_sound) { return diverged(engine, report); }
         ++report.steps;
         const std::int64_t left = steps - report.steps;
         if (engine.step % stride == 0 || (left == 0 && is_under_way(engine))) {

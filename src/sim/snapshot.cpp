@@ -48,6 +48,24 @@ void archive_command(Archive& archive, SetGravity& set) {
 template <class Archive>
 void archive_command(Archive&, Undo&) {}
 
+template <class Archive>
+void archive_command(Archive& archive, Grasp& told) {
+    archive.value(told.grasp);
+    archive.value(told.at);
+    archive.value(told.radius);
+}
+
+template <class Archive>
+void archive_command(Archive& archive, MoveGrasp& move) {
+    archive.value(move.grasp);
+    archive.value(move.to);
+}
+
+template <class Archive>
+void archive_command(Archive& archive, Release& told) {
+    archive.value(told.grasp);
+}
+
 template <std::size_t Kind = 0>
 Command make_command(std::uint64_t kind) {
     if constexpr (Kind == std::variant_size_v<Command>) {
@@ -60,6 +78,7 @@ Command make_command(std::uint64_t kind) {
 template <class Archive>
 void archive_recorded(Archive& archive, Recorded& recorded) {
     archive.value(recorded.step);
+    archive.value(recorded.until);
     std::uint64_t kind = recorded.command.index();
     archive.value(kind);
     if constexpr (Archive::reads) { recorded.command = make_command(kind); }
@@ -137,6 +156,16 @@ void archive_state(Archive& archive, EngineState& state) {
         archive.rows(way.poses);
         archive.value(way.begun);
     });
+    archive_each(archive, state.grasps, [&](GraspWay& way) {
+        archive.value(way.grasp);
+        archive.value(way.at);
+        archive.value(way.to);
+        archive.value(way.radius);
+        archive_each(archive, way.nodes, [&](GraspedNode& grasped) {
+            archive.value(grasped.node);
+            archive.value(grasped.offset);
+        });
+    });
     archive.rows(state.swept);
     archive.value(state.step);
     archive.value(state.clock_start);
@@ -178,6 +207,7 @@ Result<void> restore_snapshot(Engine& engine, const SnapshotState& snapshot) {
     }
     restore_engine(engine, snapshot.saved);
     engine.record = snapshot.record;
+    engine.carried_out = engine.record.size();
     engine.strokes.clear();
     engine.between = {};
     return {};

@@ -61,6 +61,7 @@ StepSums update_nodes(Engine& engine) {
 
 bool step_motion(Engine& engine) {
     move_prescribed(engine);
+    move_grasps(engine);
     compute_forces(engine);
     const StepSums sums = update_nodes(engine);
     // A body that crosses its own size in a step has blown up, and is stopped while its numbers are still
