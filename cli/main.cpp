@@ -48,8 +48,21 @@ void add_run(CLI::App& app, cli::RunOptions& options, int& status) {
     command->add_option("--threads", options.threads, "threads; 0: one a core")->check(CLI::Range(0, 256));
     command->add_option("--set", options.overrides, "scene values, as key=value")->take_all();
     command->add_option("--json", options.json, "file for the report, or - for standard output");
+    command->add_option("--record", options.record, "file for the record, for resect replay");
     add_isa(*command, options.isa);
     command->callback([&] { status = cli::run(options); });
+}
+
+void add_replay(CLI::App& app, cli::ReplayOptions& options, int& status) {
+    CLI::App* command = app.add_subcommand("replay", "do again what a record holds");
+    command->add_option("record", options.record, "record (JSON), as run --record writes it")->required();
+    command->add_flag("--check-hash", options.check_hash,
+                      "fail if it ends in another state than was recorded");
+    command->add_option("--threads", options.threads, "threads; 0: one a core")->check(CLI::Range(0, 256));
+    command->add_option("--surface", options.surface,
+                        "file for the surface at the end (.obj .stl .ply .vtp)");
+    add_isa(*command, options.isa);
+    command->callback([&] { status = cli::replay(options); });
 }
 
 void add_mesh(CLI::App& app, cli::MeshOptions& options, int& status) {
@@ -116,18 +129,20 @@ int run_program(int argc, char** argv) {
     app.require_subcommand(1);
     int status = cli::done;
     cli::RunOptions run;
+    cli::ReplayOptions replay;
     cli::MeshOptions mesh;
     std::string info;
     cli::PictureOptions picture;
     cli::BenchOptions bench;
     add_run(app, run, status);
+    add_replay(app, replay, status);
     add_mesh(app, mesh, status);
     add_info(app, info, status);
     add_picture(app, picture, status);
     add_bench(app, bench, status);
     if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
         return cli::refuse(
-            fmt::format("'{}' is not a command; give run, mesh, info, picture or bench", argv[1]));
+            fmt::format("'{}' is not a command; give run, replay, mesh, info, picture or bench", argv[1]));
     }
     try {
         app.parse(argc, argv);

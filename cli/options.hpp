@@ -20,6 +20,15 @@ struct RunOptions {
     std::vector<std::string> overrides = {};
     std::string isa = {};
     std::string json = {};
+    std::string record = {}; // file to write
+};
+
+struct ReplayOptions {
+    std::string record = {};
+    bool check_hash = false;
+    int threads = 0;
+    std::string isa = {};
+    std::string surface = {}; // file to write
 };
 
 struct MeshOptions {
@@ -50,6 +59,7 @@ struct BenchOptions {
 };
 
 int run(const RunOptions& options);
+int replay(const ReplayOptions& options);
 int mesh(const MeshOptions& options);
 int info(const std::string& path);
 int picture(const PictureOptions& options);

@@ -53,6 +53,22 @@ Result<void> write_body(const std::string& path, const Body& body);
 Result<void> write_snapshot(const std::string& path, const Snapshot& snapshot);
 Result<Snapshot> load_snapshot(const std::string& path);
 
+/// A command as one JSON object, {"move_blade": {"blade": 0, "heel": [x, y, z], "tip": [x, y, z]}}: so
+/// records hold it, and pages send it (docs/manual.md, "Records").
+std::string format_command(const Command& command);
+Result<Command> parse_command(const std::string& text);
+
+/// All that was done to a scene, to be done again.
+struct Record {
+    std::string scene = {}; // path; in the file it counts from the file's folder
+    std::vector<std::string> overrides = {};
+    std::vector<Recorded> commands = {};
+    std::int64_t steps = 0; // since creation, at the end
+    std::uint64_t hash = 0; // Simulation::hash() then
+};
+Result<void> write_record(const std::string& path, const Record& record);
+Result<Record> load_record(const std::string& path);
+
 /// One file of a series in time.
 struct SeriesEntry {
     double time = 0;       // s

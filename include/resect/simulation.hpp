@@ -48,6 +48,9 @@ public:
     /// Steps over `seconds` (rounded to whole steps, the remainder is carried over), sweeping blades on their
     /// way. Stops early, at the last finite state, if the run diverges.
     StepReport advance(double seconds);
+    /// Does what another simulation of the same setup recorded, at the same steps, and goes on to step
+    /// `until`. An error where a command is refused, or a step diverges.
+    Result<void> replay(std::span<const Recorded> commands, std::int64_t until);
     /// Steps until the out-of-balance force on the free nodes of held pieces, a mean over 500 steps, stays
     /// below `residual` of the applied force for 50 steps, for `at_most` simulated seconds; the clock then
     /// starts at zero again.

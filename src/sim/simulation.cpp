@@ -88,6 +88,29 @@ StepReport Simulation::advance(double seconds) {
     return report;
 }
 
+Result<void> Simulation::replay(std::span<const Recorded> commands, std::int64_t until) {
+    const auto advance_to = [&](std::int64_t step) -> Result<void> {
+        const std::int64_t left = step - engine_->step;
+        if (left <= 0) { return {}; }
+        const StepReport report = advance(static_cast<double>(left) * engine_->time_step);
+        if (report.status == Status::ok) { return {}; }
+        return Error{report.reason};
+    };
+    std::int64_t arrival = 0;
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        const Recorded& told = commands[i];
+        for (const std::int64_t step : {std::min(arrival, told.step), told.step}) {
+            if (Result<void> advanced = advance_to(step); !advanced) { return advanced; }
+        }
+        if (const Result<void> applied = apply(told.command); !applied) {
+            return Error{fmt::format("command {} of the record: {}", i, applied.error().message)};
+        }
+        arrival = told.until;
+    }
+    if (Result<void> advanced = advance_to(std::min(arrival, until)); !advanced) { return advanced; }
+    return advance_to(until);
+}
+
 StepReport Simulation::settle(double residual, double at_most) {
     if (!(residual > 0 && at_most >= 0 && at_most / engine_->time_step <= steps_at_most)) {
         return {.status = Status::refused, .reason = "settle: give a residual above 0 and a time from 0"};
