@@ -315,9 +315,9 @@ private:
                 fmt::format("copy {} has skin that is held, and no node that is", lost));
         }
         const double bound = measure_rest_bound(engine_);
-        if (!(std::abs(bound / engine_.model.rest_bound - 1) <= bound_tolerance)) {
+        if (!(std::abs(bound / engine_.tissue.rest_bound - 1) <= bound_tolerance)) {
             verdict_.faults.push_back(
-                fmt::format("the rest bound went from {:.6g} to {:.6g} s", engine_.model.rest_bound, bound));
+                fmt::format("the rest bound went from {:.6g} to {:.6g} s", engine_.tissue.rest_bound, bound));
         }
     }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "resect/body.hpp"
+#include "resect/setup.hpp"
 
 namespace resect {
 
@@ -58,13 +59,21 @@ struct SetGravity {
     Vec3 gravity = {}; // m/s^2
 };
 
+/// Gives a region another material; its density stays. The time step is chosen anew, as Setup::time_step
+/// says.
+struct SetMaterial {
+    Index region = 0; // row of Setup::materials
+    Material material = {};
+};
+
 /// Goes back to where the last stroke that is not undone began: a blade was placed, or cut() called.
 /// Everything is as it was, time included; the record goes on. The last 32 strokes are kept, fewer of very
 /// large bodies.
 struct Undo {};
 
 /// One vocabulary for C++, scenes and records.
-using Command = std::variant<MoveBlade, LiftBlade, Prescribe, SetGravity, Undo, Grasp, MoveGrasp, Release>;
+using Command =
+    std::variant<MoveBlade, LiftBlade, Prescribe, SetGravity, Undo, Grasp, MoveGrasp, Release, SetMaterial>;
 
 struct Recorded {
     std::int64_t step = 0; // since creation, at which it was told

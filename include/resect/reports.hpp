@@ -49,7 +49,7 @@ struct Piece {
 };
 
 /// J. Elastic is that of the law without viscosity; gravity is zero at rest; damped is what both kinds of
-/// damping and settling have taken.
+/// damping, settling and changes of material have taken.
 struct Energies {
     double kinetic = 0, elastic = 0, gravity = 0, damped = 0;
 };

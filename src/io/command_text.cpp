@@ -20,7 +20,8 @@ using Json = nlohmann::ordered_json;
 
 /// In the order of Command.
 constexpr std::array<const char*, std::variant_size_v<Command>> names = {
-    "move_blade", "lift_blade", "prescribe", "set_gravity", "undo", "grasp", "move_grasp", "release"};
+    "move_blade", "lift_blade", "prescribe", "set_gravity", "undo",
+    "grasp",      "move_grasp", "release",   "set_material"};
 
 enum class Need { must, may };
 
@@ -61,6 +62,15 @@ void each_field(MoveGrasp& move, Visit visit) {
 template <class Visit>
 void each_field(Release& told, Visit visit) {
     visit("grasp", told.grasp, Need::may);
+}
+
+template <class Visit>
+void each_field(SetMaterial& set, Visit visit) {
+    visit("region", set.region, Need::may);
+    visit("young", set.material.young, Need::must);
+    visit("poisson", set.material.poisson, Need::must);
+    visit("density", set.material.density, Need::must);
+    visit("viscous_time", set.material.viscous_time, Need::may);
 }
 
 // ---- reading: what a value must be, in words, and whether it is

@@ -14,26 +14,6 @@ namespace {
 constexpr int threads_at_most = 256;
 constexpr double most_gravity = 1e5; // m/s^2
 
-Result<void> check_material(const Material& material, std::size_t at) {
-    const auto wrong = [&](const char* what, double value, const char* mend) {
-        return Error{fmt::format("material {}: {} is {:g}; {}", at, what, value, mend)};
-    };
-    if (!(material.young > 0 && material.young <= 1e12)) {
-        return wrong("young", material.young, "give Pa above 0 and up to 1e12");
-    }
-    if (!(material.poisson > -1 && material.poisson <= 0.4999)) {
-        return wrong("poisson", material.poisson, "give a value above -1 and up to 0.4999");
-    }
-    if (!(material.density > 0 && material.density <= 1e6)) {
-        return wrong("density", material.density, "give kg/m^3 above 0 and up to 1e6");
-    }
-    if (material.viscous_time != automatic && !(material.viscous_time >= 0 && material.viscous_time <= 10)) {
-        return wrong("viscous_time", material.viscous_time,
-                     "give seconds from 0 to 10, or leave it automatic");
-    }
-    return {};
-}
-
 Result<void> check_regions(const Setup& setup) {
     const std::vector<Index>& region = setup.body.region;
     if (region.empty()) { return {}; }
@@ -130,6 +110,26 @@ Result<void> check_numbers(const Setup& setup) {
 }
 
 } // namespace
+
+Result<void> check_material(const Material& material, std::size_t at) {
+    const auto wrong = [&](const char* what, double value, const char* mend) {
+        return Error{fmt::format("material {}: {} is {:g}; {}", at, what, value, mend)};
+    };
+    if (!(material.young > 0 && material.young <= 1e12)) {
+        return wrong("young", material.young, "give Pa above 0 and up to 1e12");
+    }
+    if (!(material.poisson > -1 && material.poisson <= 0.4999)) {
+        return wrong("poisson", material.poisson, "give a value above -1 and up to 0.4999");
+    }
+    if (!(material.density > 0 && material.density <= 1e6)) {
+        return wrong("density", material.density, "give kg/m^3 above 0 and up to 1e6");
+    }
+    if (material.viscous_time != automatic && !(material.viscous_time >= 0 && material.viscous_time <= 10)) {
+        return wrong("viscous_time", material.viscous_time,
+                     "give seconds from 0 to 10, or leave it automatic");
+    }
+    return {};
+}
 
 Result<void> check_gravity(const Vec3& gravity) {
     if (length(gravity) <= most_gravity) { return {}; }

@@ -176,6 +176,8 @@ Result<void> apply_one(Engine& engine, const SetGravity& set) {
     return {};
 }
 
+Result<void> apply_one(Engine& engine, const SetMaterial& set) { return change_material(engine, set); }
+
 Result<void> apply_one(Engine& engine, const Undo&) {
     if (undo_stroke(engine)) { return {}; }
     return Error{"undo: there is no stroke to undo"};

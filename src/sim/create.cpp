@@ -7,6 +7,7 @@
 #include "mesh/validate.hpp"
 #include "sim/check_setup.hpp"
 #include "sim/engine.hpp"
+#include "sim/snapshot.hpp"
 
 namespace resect {
 
@@ -19,7 +20,6 @@ Model build_model(Setup& setup) {
     Model model;
     model.rest = build_rest(setup.body.elements);
     model.elements = setup.body.elements;
-    model.materials = setup.materials;
     model.region = setup.body.region;
     model.region.resize(model.rest.size(), 0);
     model.loads = setup.loads;
@@ -27,37 +27,14 @@ Model build_model(Setup& setup) {
     model.quantities = setup.cut.quantities;
     const Box box = bounds_of(model.elements);
     model.size = length(box.hi - box.lo);
-    model.rest_bound = least_step_bound(model);
+    model.asked_time_step = setup.time_step;
+    model.allow_unstable_step = setup.allow_unstable_step;
     double volume = 0;
     for (const RestElement& rest : model.rest) {
         volume += rest.volume;
     }
     model.element_size = std::cbrt(volume / static_cast<double>(model.rest.size()));
-    for (const Material& material : model.materials) {
-        const bool chosen = material.viscous_time != automatic;
-        model.viscous_time.push_back(chosen ? material.viscous_time : viscous_share * model.rest_bound);
-    }
     return model;
-}
-
-/// With SF = step / bound and theta = viscous time / bound, the step is stable at rest while SF^2 + 2 theta
-/// SF <= 1 (docs/method.md); the automatic one keeps the margin that 0.6 has at theta = 0.1.
-Result<double> choose_time_step(const Setup& setup, const Model& model) {
-    const double theta =
-        *std::max_element(model.viscous_time.begin(), model.viscous_time.end()) / model.rest_bound;
-    const auto largest = [theta](double sum) { return std::sqrt(theta * theta + sum) - theta; };
-    if (setup.time_step == 0) {
-        const double kept = safety_factor * safety_factor + 2 * viscous_share * safety_factor;
-        return std::min(safety_factor, largest(kept)) * model.rest_bound;
-    }
-    const double stable = largest(1) * model.rest_bound;
-    if (setup.time_step > stable && !setup.allow_unstable_step) {
-        return Error{
-            fmt::format("time_step {:g} s is above {:g} s, the largest that is stable at rest (bound {:g} s, "
-                        "viscosity counted); lower it, leave it 0, or set allow_unstable_step",
-                        setup.time_step, stable, model.rest_bound)};
-    }
-    return setup.time_step;
 }
 
 std::vector<HeldRegion> mark_held(const Setup& setup) {
@@ -135,11 +112,11 @@ void build_elements(Engine& engine) {
     const Model& model = engine.model;
     for (std::size_t copy = 0; copy < mesh.copy_node.size(); ++copy) {
         const std::size_t element = row(mesh.copy_element[copy]), region = row(model.region[element]);
-        append_copy(engine.elements, model.rest[element], model.materials[region],
-                    {.viscous_time = model.viscous_time[region],
+        append_copy(engine.elements, model.rest[element], engine.tissue.materials[region],
+                    {.viscous_time = engine.tissue.viscous_time[region],
                      .weight = mesh.copy_weight[copy],
                      .nodes = mesh.copy_node[copy]});
-        engine.copy_density.push_back(static_cast<float>(model.materials[region].density));
+        engine.copy_density.push_back(static_cast<float>(engine.tissue.materials[region].density));
         engine.weak.push_back(0);
     }
 }
@@ -172,16 +149,16 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup) {
     auto engine = std::make_unique<Engine>(setup.threads);
     engine->model = build_model(setup);
     const Model& model = engine->model;
-    Result<double> time_step = choose_time_step(setup, model);
-    if (!time_step) { return time_step.error(); }
-    engine->time_step = *time_step;
-    engine->constants = {.time_step = static_cast<float>(*time_step),
+    Result<Tissue> tissue = make_tissue(model, setup.materials);
+    if (!tissue) { return tissue.error(); }
+    engine->tissue = std::move(*tissue);
+    engine->constants = {.time_step = static_cast<float>(engine->tissue.time_step),
                          .damping = static_cast<float>(setup.damping),
                          .gravity = to_float(setup.gravity)};
 
     CutterSetup cutting{.held = mark_held(setup), .options = setup.cut};
     for (std::size_t element = 0; element < model.rest.size(); ++element) {
-        cutting.element_mass.push_back(model.materials[row(model.region[element])].density *
+        cutting.element_mass.push_back(setup.materials[row(model.region[element])].density *
                                        model.rest[element].volume);
     }
     const std::vector<HeldRegion> held = cutting.held;
@@ -198,11 +175,12 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup) {
     }
     build_elements(*engine);
     build_nodes(*engine, setup.initial);
-    engine->model.load_per_gravity = measure_load_per_gravity(*engine);
+    engine->tissue.load_per_gravity = measure_load_per_gravity(*engine);
     update_all_stiffness(*engine);
     reserve_rows(*engine);
     engine->elastic_start = elastic_energy(engine->elements, engine->nodes.displacement);
     check_strain_now(*engine);
+    engine->model.hash = hash_model(*engine);
     return engine;
 }
 

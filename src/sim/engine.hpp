@@ -28,16 +28,23 @@ inline constexpr std::int64_t bound_interval = 1000; // and at the live bound, a
 struct Model {
     TetMesh elements = {};
     std::vector<RestElement> rest = {}; // [element]
-    std::vector<Material> materials = {};
-    std::vector<Index> region = {};        // [element] row of materials
-    std::vector<double> viscous_time = {}; // [material] s
+    std::vector<Index> region = {};     // [element] row of Tissue::materials
     std::vector<std::pair<Index, Vec3>> loads = {};
     Weights weights = Weights::fraction;
     Quantities quantities = Quantities::copy;
-    double rest_bound = 0;       // s
-    double size = 0;             // diagonal of the rest box, m
-    double element_size = 0;     // cube root of the mean element's volume, m
-    double load_per_gravity = 0; // s^2/m, see measure_load_per_gravity
+    double asked_time_step = 0; // s; 0: chosen
+    bool allow_unstable_step = false;
+    double size = 0;         // diagonal of the rest box, m
+    double element_size = 0; // cube root of the mean element's volume, m
+    std::uint64_t hash = 0;  // of all that a snapshot must have in common
+};
+
+/// What the body is made of, and the step that follows from it.
+struct Tissue {
+    std::vector<Material> materials = {};
+    std::vector<double> viscous_time = {}; // [material] s
+    double rest_bound = 0, time_step = 0;  // s
+    double load_per_gravity = 0;           // s^2/m, see measure_load_per_gravity
 };
 
 /// A blade on its way: poses that the next steps have yet to sweep, in order.
@@ -75,6 +82,7 @@ struct EngineState {
     Packing packing = {}; // of elements and nodes, for the step
     NodeArrays nodes = {};
     StepConstants constants = {};
+    Tissue tissue = {};
 
     std::map<Index, Vec3> prescribed = {};        // displacement by row of Body::elements.nodes, m
     std::vector<std::vector<Index>> classes = {}; // [row of Body::elements.nodes] its simulation nodes
@@ -82,7 +90,8 @@ struct EngineState {
     std::vector<GraspWay> grasps = {};            // in id order
     std::vector<Vec3f> swept = {};                // displacement up to which blades have swept [node]
     std::int64_t step = 0;                        // since creation
-    std::int64_t clock_start = 0;                 // step at which time is zero
+    std::int64_t clock_start = 0;                 // step at which time was `clock_before`
+    double clock_before = 0;                      // s
     double carried = 0;                           // s asked for and not yet stepped
 
     Work work = {};
@@ -104,7 +113,6 @@ struct SavedEngine {
 struct Engine : EngineState {
     Model model = {};
     CutterPtr cutter = {};
-    double time_step = 0;  // s
     std::int64_t left = 1; // steps, this one included, over which grasps arrive
     Workers workers;
     std::vector<Recorded> record = {};
@@ -132,9 +140,15 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup);
 void update_conditions(Engine& engine, std::span<const Index> touched);
 void update_all_conditions(Engine& engine);
 
-// quantities.cpp
+// materials.cpp
+/// Bound, viscous times and step for these materials; an error where the step that was asked for is too long.
+Result<Tissue> make_tissue(const Model& model, std::vector<Material> materials);
 /// The critical time step at rest of the worst element, s.
-double least_step_bound(const Model& model);
+double least_step_bound(const Model& model, std::span<const Material> materials);
+/// Gives a region another material, and the simulation the step that follows.
+Result<void> change_material(Engine& engine, const SetMaterial& set);
+
+// quantities.cpp
 /// The precomputed quantities of copies that a cut added, as Setup::cut.quantities says; their corners are
 /// those of their parents, or of S.
 void append_quantities(Engine& engine, std::span<const Delta::NewCopy> copies);

@@ -18,7 +18,7 @@ Vec3 place_of_home(const Engine& engine, std::size_t node) {
 void move_node(Engine& engine, Index index, const Vec3& displacement) {
     const std::size_t node = row(index);
     const Vec3f target = to_float(displacement);
-    const auto inverse_step = static_cast<float>(1 / engine.time_step);
+    const auto inverse_step = static_cast<float>(1 / engine.tissue.time_step);
     engine.nodes.velocity[node] = inverse_step * (target - engine.nodes.displacement[node]);
     engine.nodes.displacement[node] = target;
     place_node(engine.packing, engine.nodes, index);

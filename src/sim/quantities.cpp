@@ -11,8 +11,8 @@ void set_rest_of(Engine& engine, const RestElement& rest, Index copy) {
     const Model& model = engine.model;
     const std::size_t region = row(model.region[row(mesh.copy_element[row(copy)])]);
     const Moduli present = moduli_of(engine.elements, copy); // a matter of S and of the past (stiffness.cpp)
-    set_copy(engine.elements, copy, rest, model.materials[region],
-             {.viscous_time = model.viscous_time[region],
+    set_copy(engine.elements, copy, rest, engine.tissue.materials[region],
+             {.viscous_time = engine.tissue.viscous_time[region],
               .weight = mesh.copy_weight[row(copy)],
               .nodes = mesh.copy_node[row(copy)]});
     set_moduli(engine.elements, copy, present);
@@ -23,7 +23,7 @@ void compute_masses(Engine& engine) {
     std::vector<double> mass(mesh.node_reference.size(), 0);
     for (std::size_t copy = 0; copy < mesh.copy_node.size(); ++copy) {
         const std::size_t element = row(mesh.copy_element[copy]);
-        const double density = engine.model.materials[row(engine.model.region[element])].density;
+        const double density = engine.tissue.materials[row(engine.model.region[element])].density;
         for (const Index node : mesh.copy_node[copy]) {
             mass[row(node)] += mesh.copy_weight[copy] * density * engine.model.rest[element].volume / 4;
         }
@@ -36,7 +36,7 @@ void compute_masses(Engine& engine) {
 void compute_all(Engine& engine) {
     const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
     engine.model.rest = build_rest(engine.model.elements);
-    engine.model.rest_bound = least_step_bound(engine.model);
+    engine.tissue.rest_bound = least_step_bound(engine.model, engine.tissue.materials);
     for (std::size_t copy = 0; copy < mesh.copy_node.size(); ++copy) {
         set_rest_of(engine, engine.model.rest[row(mesh.copy_element[copy])], static_cast<Index>(copy));
     }
@@ -44,15 +44,6 @@ void compute_all(Engine& engine) {
 }
 
 } // namespace
-
-double least_step_bound(const Model& model) {
-    double bound = std::numeric_limits<double>::infinity();
-    for (std::size_t element = 0; element < model.rest.size(); ++element) {
-        const Material& material = model.materials[row(model.region[element])];
-        bound = std::min(bound, rest_step_bound(model.rest[element], material));
-    }
-    return bound;
-}
 
 void append_quantities(Engine& engine, std::span<const Delta::NewCopy> copies) {
     const SimulationMesh& mesh = simulation_mesh(*engine.cutter);

@@ -139,10 +139,10 @@ void step_to_rest(Engine& engine, double residual, double at_most, StepReport& r
         return;
     }
     const Easing easing(engine);
-    const double eased = std::min(easing_time, at_most / 3) / engine.time_step;
+    const double eased = std::min(easing_time, at_most / 3) / engine.tissue.time_step;
     double ratio = 1;
     for (int calm = 0; calm < calm_steps; ++report.steps) {
-        if (static_cast<double>(report.steps) * engine.time_step >= at_most) {
+        if (static_cast<double>(report.steps) * engine.tissue.time_step >= at_most) {
             report.status = Status::not_settled;
             report.reason =
                 fmt::format("not settled in {:g} s: {:.2g} of the applied force is out of balance, {:.2g} "
@@ -174,6 +174,7 @@ StepReport settle_engine(Engine& engine, double residual, double at_most) {
     engine.strain = {};
     check_strain_now(engine);
     engine.clock_start = engine.step;
+    engine.clock_before = 0;
     engine.carried = 0;
     engine.swept = engine.nodes.displacement;
     return report;

@@ -58,20 +58,20 @@ Result<void> Simulation::apply(const Command& command) { return apply_command(*e
 StepReport Simulation::advance(double seconds) {
     Engine& engine = *engine_;
     StepReport report;
-    const double asked = (engine.carried + seconds) / engine.time_step;
+    const double asked = (engine.carried + seconds) / engine.tissue.time_step;
     if (!(seconds >= 0 && asked <= steps_at_most)) {
         report.status = Status::refused;
         report.reason = fmt::format("advance({:g}): give seconds from 0 to {:g}", seconds,
-                                    steps_at_most * engine.time_step);
+                                    steps_at_most * engine.tissue.time_step);
         return report;
     }
     // The small excess lets n times a step of 1 / n make n steps, whatever the rounding.
     const std::int64_t steps = static_cast<std::int64_t>(std::floor(asked + 1e-6));
     report.cut = std::exchange(engine.between, {});
     if (steps > 0) { note_arrival(engine, engine.step + steps); }
-    engine.carried += seconds - static_cast<double>(steps) * engine.time_step;
+    engine.carried += seconds - static_cast<double>(steps) * engine.tissue.time_step;
     const std::int64_t stride =
-        std::max<std::int64_t>(1, static_cast<std::int64_t>(sweep_every / engine.time_step));
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(sweep_every / engine.tissue.time_step));
     while (report.steps < steps) {
         engine.left = steps - report.steps;
         const bool is_sound = step_motion(engine);
@@ -92,7 +92,7 @@ Result<void> Simulation::replay(std::span<const Recorded> commands, std::int64_t
     const auto advance_to = [&](std::int64_t step) -> Result<void> {
         const std::int64_t left = step - engine_->step;
         if (left <= 0) { return {}; }
-        const StepReport report = advance(static_cast<double>(left) * engine_->time_step);
+        const StepReport report = advance(static_cast<double>(left) * engine_->tissue.time_step);
         if (report.status == Status::ok) { return {}; }
         return Error{report.reason};
     };
@@ -112,7 +112,7 @@ Result<void> Simulation::replay(std::span<const Recorded> commands, std::int64_t
 }
 
 StepReport Simulation::settle(double residual, double at_most) {
-    if (!(residual > 0 && at_most >= 0 && at_most / engine_->time_step <= steps_at_most)) {
+    if (!(residual > 0 && at_most >= 0 && at_most / engine_->tissue.time_step <= steps_at_most)) {
         return {.status = Status::refused, .reason = "settle: give a residual above 0 and a time from 0"};
     }
     if (!engine_->blades.empty()) {
@@ -186,7 +186,7 @@ Energies Simulation::energies() const {
     const Engine& engine = *engine_;
     const NodeArrays& nodes = engine.nodes;
     const Vec3 gravity = to_double(engine.constants.gravity);
-    const auto half_step = static_cast<float>(engine.time_step / 2);
+    const auto half_step = static_cast<float>(engine.tissue.time_step / 2);
     Energies energies{.kinetic = kinetic_energy(nodes)};
     std::vector<Vec3f> behind(nodes.mass.size());
     for (std::size_t node = 0; node < behind.size(); ++node) {
@@ -200,8 +200,9 @@ Energies Simulation::energies() const {
 }
 
 TimeStep Simulation::time_step() const {
-    return {
-        .used = engine_->time_step, .bound = engine_->model.rest_bound, .live_bound = engine_->live_bound};
+    return {.used = engine_->tissue.time_step,
+            .bound = engine_->tissue.rest_bound,
+            .live_bound = engine_->live_bound};
 }
 
 Strain Simulation::strain() const { return engine_->strain; }
@@ -209,7 +210,8 @@ Strain Simulation::strain() const { return engine_->strain; }
 std::vector<std::string> Simulation::warnings() const { return find_warnings(*engine_); }
 
 double Simulation::time() const {
-    return static_cast<double>(engine_->step - engine_->clock_start) * engine_->time_step;
+    return engine_->clock_before +
+           static_cast<double>(engine_->step - engine_->clock_start) * engine_->tissue.time_step;
 }
 
 const char* instruction_set() { return kernels().name; }

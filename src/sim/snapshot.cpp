@@ -12,15 +12,12 @@ namespace resect {
 namespace {
 
 /// Of what decides whether a state fits: elements, materials, step, options.
-std::uint64_t hash_model(const Engine& engine) {
-    const Model& model = engine.model;
-    Hash hash;
-    hash.add(std::span<const Vec3>(model.elements.nodes)).add(std::span<const Tet>(model.elements.tets));
-    hash.add(std::span<const Index>(model.region)).add(std::span<const double>(model.viscous_time));
-    for (const Material& material : model.materials) {
-        hash.add(material.young).add(material.poisson).add(material.density);
+template <class Archive>
+void archive_material(Archive& archive, Material& material) {
+    archive.value(material.law);
+    for (double* value : {&material.young, &material.poisson, &material.density, &material.viscous_time}) {
+        archive.value(*value);
     }
-    return hash.add(model.weights).add(engine.time_step).add(engine.constants.damping).value();
 }
 
 template <class Archive>
@@ -64,6 +61,12 @@ void archive_command(Archive& archive, MoveGrasp& move) {
 template <class Archive>
 void archive_command(Archive& archive, Release& told) {
     archive.value(told.grasp);
+}
+
+template <class Archive>
+void archive_command(Archive& archive, SetMaterial& set) {
+    archive.value(set.region);
+    archive_material(archive, set.material);
 }
 
 template <std::size_t Kind = 0>
@@ -142,6 +145,15 @@ void archive_packing(Archive& archive, Packing& packing) {
 }
 
 template <class Archive>
+void archive_tissue(Archive& archive, Tissue& tissue) {
+    archive_each(archive, tissue.materials, [&](Material& material) { archive_material(archive, material); });
+    archive.rows(tissue.viscous_time);
+    archive.value(tissue.rest_bound);
+    archive.value(tissue.time_step);
+    archive.value(tissue.load_per_gravity);
+}
+
+template <class Archive>
 void archive_state(Archive& archive, EngineState& state) {
     archive_elements(archive, state.elements);
     archive_packing(archive, state.packing);
@@ -169,6 +181,8 @@ void archive_state(Archive& archive, EngineState& state) {
     archive.rows(state.swept);
     archive.value(state.step);
     archive.value(state.clock_start);
+    archive.value(state.clock_before);
+    archive_tissue(archive, state.tissue);
     archive.value(state.carried);
     archive.value(state.work);
     archive.value(state.elastic_start);
@@ -195,12 +209,23 @@ std::uint64_t hash_bytes(std::string_view bytes) { return Hash().add(std::span<c
 
 } // namespace
 
+std::uint64_t hash_model(const Engine& engine) {
+    const Model& model = engine.model;
+    Hash hash;
+    hash.add(std::span<const Vec3>(model.elements.nodes)).add(std::span<const Tet>(model.elements.tets));
+    hash.add(std::span<const Index>(model.region)).add(std::span<const double>(engine.tissue.viscous_time));
+    for (const Material& material : engine.tissue.materials) {
+        hash.add(material.young).add(material.poisson).add(material.density);
+    }
+    return hash.add(model.weights).add(engine.tissue.time_step).add(engine.constants.damping).value();
+}
+
 SnapshotState take_snapshot(const Engine& engine) {
-    return {hash_model(engine), save_engine(engine), engine.record};
+    return {engine.model.hash, save_engine(engine), engine.record};
 }
 
 Result<void> restore_snapshot(Engine& engine, const SnapshotState& snapshot) {
-    if (snapshot.model != hash_model(engine)) {
+    if (snapshot.model != engine.model.hash) {
         return Error{
             "restore: the snapshot is of another body, material or step; create the simulation from the "
             "setup that it was taken from"};

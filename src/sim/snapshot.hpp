@@ -11,6 +11,8 @@ struct SnapshotState {
     std::vector<Recorded> record = {};
 };
 
+/// Of what a simulation and a snapshot must have in common, from a simulation that has just been made.
+std::uint64_t hash_model(const Engine& engine);
 SnapshotState take_snapshot(const Engine& engine);
 Result<void> restore_snapshot(Engine& engine, const SnapshotState& snapshot);
 

@@ -17,7 +17,7 @@ constexpr Index nodes_a_chunk = 1024;
 void move_prescribed(Engine& engine) {
     if (engine.prescribed.empty()) { return; }
     const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
-    const float inverse_step = static_cast<float>(1 / engine.time_step);
+    const float inverse_step = static_cast<float>(1 / engine.tissue.time_step);
     for (const auto& [reference, displacement] : engine.prescribed) {
         const Vec3f target = to_float(displacement);
         for (const Index index : engine.classes[row(reference)]) {
@@ -67,7 +67,7 @@ bool step_motion(Engine& engine) {
     // A body that crosses its own size in a step has blown up, and is stopped while its numbers are still
     // finite.
     const double speed = std::sqrt(static_cast<double>(sums.speed_squared));
-    if (!(speed * engine.time_step <= engine.model.size)) {
+    if (!(speed * engine.tissue.time_step <= engine.model.size)) {
         place_all_nodes(engine.packing, engine.nodes);
         return false;
     }

@@ -27,7 +27,7 @@ constexpr double stiffness_slope = 0.1; // more for each of its own weight that 
 double find_support(const Engine& engine, Index copy) {
     const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
     const std::size_t element = row(mesh.copy_element[row(copy)]);
-    const double density = engine.model.materials[row(engine.model.region[element])].density;
+    const double density = engine.tissue.materials[row(engine.model.region[element])].density;
     double least = std::numeric_limits<double>::infinity();
     for (const Index node : mesh.copy_node[row(copy)]) {
         if (mesh.node_held[row(node)] == 0) { least = std::min(least, mesh.node_mass[row(node)]); }
@@ -47,7 +47,7 @@ void set_stiffness(Engine& engine, Index copy) {
     const std::size_t element = row(mesh.copy_element[row(copy)]);
     const double weight = mesh.copy_weight[row(copy)];
     const double support = find_support(engine, copy);
-    const Moduli m = moduli(engine.model.materials[row(engine.model.region[element])]);
+    const Moduli m = moduli(engine.tissue.materials[row(engine.model.region[element])]);
     const double raised = std::max(1.0, std::min(wall_share, wall_support * support) / weight);
     const double borne = least_stiffness + stiffness_slope * (support / weight - 1);
     const double kept = engine.weak[row(copy)] != 0 ? std::min(1.0, borne) : 1;
@@ -58,7 +58,7 @@ void set_stiffness(Engine& engine, Index copy) {
 bool is_weakened(const Engine& engine, Index copy) {
     if (engine.weak[row(copy)] == 0) { return false; }
     const std::size_t element = row(simulation_mesh(*engine.cutter).copy_element[row(copy)]);
-    const Moduli m = moduli(engine.model.materials[row(engine.model.region[element])]);
+    const Moduli m = moduli(engine.tissue.materials[row(engine.model.region[element])]);
     return moduli_of(engine.elements, copy).mu < (1 - 1e-6) * m.mu;
 }
 

@@ -44,7 +44,7 @@ double measure_load_per_gravity(const Engine& engine) {
         reach = std::max(reach, distance_from(held, mesh.node_home[node]));
     }
     double softest = 0; // density over Young's modulus, s^2/m^2
-    for (const Material& material : engine.model.materials) {
+    for (const Material& material : engine.tissue.materials) {
         softest = std::max(softest, material.density / material.young);
     }
     return softest * reach;
@@ -52,7 +52,7 @@ double measure_load_per_gravity(const Engine& engine) {
 
 std::vector<std::string> find_warnings(const Engine& engine) {
     std::vector<std::string> warnings;
-    const double load_number = engine.model.load_per_gravity * length(to_double(engine.constants.gravity));
+    const double load_number = engine.tissue.load_per_gravity * length(to_double(engine.constants.gravity));
     if (load_number > (1 + rounding) * trusted_load) {
         warnings.push_back(fmt::format(
             "the load number rho g L / E is {:.2f}: above {:g} elements at necks and thin edges may stay "

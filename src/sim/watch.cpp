@@ -104,7 +104,7 @@ Index find_diverged_element(const Engine& engine, std::string& reason) {
     reason = fmt::format(
         "diverged in step {}: a node of element {} (volume ratio {:.3g}) would move at {:.3g} m/s; "
         "lower the time step (used {:.3g} s, live bound {:.3g} s), the load or the damping",
-        engine.step + 1, element, least, speed, engine.time_step, engine.live_bound);
+        engine.step + 1, element, least, speed, engine.tissue.time_step, engine.live_bound);
     return element;
 }
 

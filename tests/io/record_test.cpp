@@ -30,7 +30,8 @@ const std::vector<Command>& commands() {
                                              Undo{},
                                              Grasp{4, {0.1, 0.2, 0.3}, 0.01},
                                              MoveGrasp{4, {0.2, 0.2, 0.3}},
-                                             Release{4}};
+                                             Release{4},
+                                             SetMaterial{0, {.young = 1e4, .poisson = 0.3}}};
     return all;
 }
 

@@ -79,7 +79,7 @@ TEST_CASE("moduli are a matter of the nodes' masses and of the past alone") {
         present.push_back(moduli_of(engine.elements, copy));
         raised += present.back().wall > Moduli{}.wall ? 1 : 0;
         if (simulation_mesh(*engine.cutter).copy_weight[row(copy)] == 1 && engine.weak[row(copy)] == 0) {
-            CHECK(present.back().mu == double(float(moduli(engine.model.materials[0]).mu)));
+            CHECK(present.back().mu == double(float(moduli(engine.tissue.materials[0]).mu)));
             CHECK(present.back().wall == Moduli{}.wall);
         }
     }

@@ -30,7 +30,7 @@ ReferenceBody make_reference(Simulation& simulation, const Setup& setup) {
     const Moduli m = moduli(setup.materials.front());
     reference.mu = m.mu;
     reference.bulk = m.bulk;
-    reference.viscous_time = engine_of(simulation).model.viscous_time.front();
+    reference.viscous_time = engine_of(simulation).tissue.viscous_time.front();
     reference.damping = setup.damping;
     reference.gravity = setup.gravity;
     for (std::size_t node = 0; node < nodes.rest.size(); ++node) {
