@@ -38,9 +38,7 @@ Result<void> check_change(const Engine& engine, const SetMaterial& set) {
         return Error{fmt::format("set_material: region {} is not one of the {} that the body has", set.region,
                                  present.size())};
     }
-    if (const Result<void> checked = check_material(set.material, row(set.region)); !checked) {
-        return checked;
-    }
+    if (Result<void> checked = check_material(set.material, row(set.region)); !checked) { return checked; }
     const double density = present[row(set.region)].density;
     if (set.material.density != density) {
         return Error{
