@@ -140,7 +140,7 @@ struct Cutter : CutterState {
     double mean_volume = 0;                       // m^3, of an element
     double unit = 1;                              // m, of the integer grid
     double grain = 0;                             // m, the largest of the material
-    Index crowd = 0;                    // material tets of an element from which it is cut along faces only
+    Index crowd = 0;                    // material tets of an element from which ends of edges are pulled far
     std::vector<Index> near_order = {}; // elements, neighbours close together (near.cpp)
     Stage failing = Stage::none;        // after which an increment is made to fail
 

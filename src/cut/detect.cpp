@@ -196,13 +196,13 @@ void snap_vertices(Cutter& cutter, Blade& blade, const Sweep& sweep) {
 /// How far a vertex may be pulled onto the sheet, m, to spare bisecting the edges `tets` lie around: farther
 /// where an element's material has been cut up a lot, and as far as need be where that has gone on
 /// regardless.
-double reach_of_crowd(const Cutter& cutter, std::span<const Index> tets) {
+double reach_of_crowd(const Cutter& cutter, std::span<const Index> tets, double grain) {
     Index most = 0;
     for (const Index tet : tets) {
         most = std::max(most, cutter.tet_count[row(cutter.element_of(tet))]);
     }
     if (most >= most_crowded * cutter.crowd) { return std::numeric_limits<double>::infinity(); }
-    return most >= cutter.crowd ? snap_share_in_crowd * cutter.grain : 0;
+    return most >= cutter.crowd ? snap_share_in_crowd * grain : 0;
 }
 
 /// The first crossing of an edge stays until it expires, but one above the tip takes the place of one beyond
@@ -222,7 +222,7 @@ void record_crossing(Cutter& cutter, Blade& blade, const Sweep& sweep, const Scr
     std::vector<Index>& ring = cutter.scratch.ring;
     find_ring(cutter.material, event.edge, cutter.scratch.walked, ring);
     const double edge = length(material.rest[row(u)] - material.rest[row(w)]);
-    if (std::min(event.t, 1 - event.t) * edge < reach_of_crowd(cutter, ring)) {
+    if (std::min(event.t, 1 - event.t) * edge < reach_of_crowd(cutter, ring, grain)) {
         if (!is_soft) { mark_zero(cutter, blade, event.t < 0.5 ? u : w, normal); }
         return;
     }
