@@ -2,13 +2,13 @@
 #include "io/command_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "resect/files.hpp"
 
+#include "base/command_fields.hpp"
 #include "io/nearest_name.hpp"
 #include "io/refuse.hpp"
 
@@ -17,61 +17,6 @@ namespace resect {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// In the order of Command.
-constexpr std::array<const char*, std::variant_size_v<Command>> names = {
-    "move_blade", "lift_blade", "prescribe", "set_gravity", "undo",
-    "grasp",      "move_grasp", "release",   "set_material"};
-
-enum class Need { must, may };
-
-// The fields of each command, once for reading and writing.
-template <class Visit>
-void each_field(MoveBlade& move, Visit visit) {
-    visit("blade", move.blade, Need::may);
-    visit("heel", move.to.heel, Need::must);
-    visit("tip", move.to.tip, Need::must);
-}
-template <class Visit>
-void each_field(LiftBlade& lift, Visit visit) {
-    visit("blade", lift.blade, Need::may);
-    visit("complete", lift.complete, Need::may);
-}
-template <class Visit>
-void each_field(Prescribe& told, Visit visit) {
-    visit("nodes", told.nodes, Need::must);
-    visit("displacement", told.displacement, Need::may);
-}
-template <class Visit>
-void each_field(SetGravity& set, Visit visit) {
-    visit("gravity", set.gravity, Need::must);
-}
-template <class Visit>
-void each_field(Undo&, Visit) {}
-template <class Visit>
-void each_field(Grasp& told, Visit visit) {
-    visit("grasp", told.grasp, Need::may);
-    visit("at", told.at, Need::must);
-    visit("radius", told.radius, Need::must);
-}
-template <class Visit>
-void each_field(MoveGrasp& move, Visit visit) {
-    visit("grasp", move.grasp, Need::may);
-    visit("to", move.to, Need::must);
-}
-template <class Visit>
-void each_field(Release& told, Visit visit) {
-    visit("grasp", told.grasp, Need::may);
-}
-
-template <class Visit>
-void each_field(SetMaterial& set, Visit visit) {
-    visit("region", set.region, Need::may);
-    visit("young", set.material.young, Need::must);
-    visit("poisson", set.material.poisson, Need::must);
-    visit("density", set.material.density, Need::must);
-    visit("viscous_time", set.material.viscous_time, Need::may);
-}
 
 // ---- reading: what a value must be, in words, and whether it is
 
@@ -84,10 +29,11 @@ const char* words_for(const std::vector<Vec3>&) { return "rows of three numbers"
 
 bool read(const Json& from, Index& to) {
     if (!from.is_number_integer()) { return false; }
-    const auto value = from.get<std::int64_t>();
     constexpr std::int64_t most = std::numeric_limits<Index>::max();
+    const bool is_huge = from.is_number_unsigned() && from.get<std::uint64_t>() > std::uint64_t{most};
+    const auto value = from.get<std::int64_t>();
     to = static_cast<Index>(value);
-    return -most <= value && value <= most;
+    return !is_huge && -most <= value && value <= most;
 }
 bool read(const Json& from, double& to) {
     if (from.is_number()) { to = from.get<double>(); }
@@ -120,9 +66,8 @@ bool read(const Json& from, std::vector<T>& to) {
 }
 
 template <class One>
-One read_fields(const std::string& name, const Json& value) {
+void read_fields(const std::string& name, const Json& value, One& one) {
     if (!value.is_object()) { refuse(fmt::format("{}: give an object of its fields", name)); }
-    One one;
     std::vector<std::string> known;
     each_field(one, [&](const char* field, auto& to, Need need) {
         known.emplace_back(field);
@@ -139,15 +84,6 @@ One read_fields(const std::string& name, const Json& value) {
             refuse_name(name + ": ", field, known);
         }
     }
-    return one;
-}
-
-template <std::size_t Kind = 0>
-Command read_kind(std::size_t kind, const Json& value) {
-    if constexpr (Kind + 1 < std::variant_size_v<Command>) {
-        if (kind > Kind) { return read_kind<Kind + 1>(kind, value); }
-    }
-    return read_fields<std::variant_alternative_t<Kind, Command>>(names[Kind], value);
 }
 
 } // namespace
@@ -159,16 +95,20 @@ Json json_of(const Command& command) {
             each_field(one, [&](const char* field, const auto& from, Need) { fields[field] = from; });
         },
         command);
-    return {{names[command.index()], fields}};
+    return {{command_names[command.index()], fields}};
 }
 
 Command command_of(const Json& value) {
     if (!value.is_object() || value.size() != 1) {
         refuse(R"(a command is an object with one name, as in {"undo": {}})");
     }
-    const auto found = std::find(names.begin(), names.end(), value.begin().key());
-    if (found == names.end()) { refuse_name("command ", value.begin().key(), {names.begin(), names.end()}); }
-    return read_kind(static_cast<std::size_t>(found - names.begin()), value.begin().value());
+    const auto found = std::find(command_names.begin(), command_names.end(), value.begin().key());
+    if (found == command_names.end()) {
+        refuse_name("command ", value.begin().key(), {command_names.begin(), command_names.end()});
+    }
+    Command command = make_command(static_cast<std::size_t>(found - command_names.begin()));
+    std::visit([&](auto& one) { read_fields(*found, value.begin().value(), one); }, command);
+    return command;
 }
 
 std::string format_command(const Command& command) { return json_of(command).dump(); }

@@ -5,6 +5,7 @@
 
 #include "resect/version.hpp"
 
+#include "base/command_fields.hpp"
 #include "base/hash.hpp"
 
 namespace resect {
@@ -20,62 +21,13 @@ void archive_material(Archive& archive, Material& material) {
     }
 }
 
-template <class Archive>
-void archive_command(Archive& archive, MoveBlade& move) {
-    archive.value(move);
+template <class Archive, class T>
+void archive_field(Archive& archive, T& value) {
+    archive.value(value);
 }
-
-template <class Archive>
-void archive_command(Archive& archive, LiftBlade& lift) {
-    archive.value(lift.blade);
-    archive.value(lift.complete);
-}
-
-template <class Archive>
-void archive_command(Archive& archive, Prescribe& told) {
-    archive.rows(told.nodes);
-    archive.rows(told.displacement);
-}
-
-template <class Archive>
-void archive_command(Archive& archive, SetGravity& set) {
-    archive.value(set);
-}
-
-template <class Archive>
-void archive_command(Archive&, Undo&) {}
-
-template <class Archive>
-void archive_command(Archive& archive, Grasp& told) {
-    archive.value(told.grasp);
-    archive.value(told.at);
-    archive.value(told.radius);
-}
-
-template <class Archive>
-void archive_command(Archive& archive, MoveGrasp& move) {
-    archive.value(move.grasp);
-    archive.value(move.to);
-}
-
-template <class Archive>
-void archive_command(Archive& archive, Release& told) {
-    archive.value(told.grasp);
-}
-
-template <class Archive>
-void archive_command(Archive& archive, SetMaterial& set) {
-    archive.value(set.region);
-    archive_material(archive, set.material);
-}
-
-template <std::size_t Kind = 0>
-Command make_command(std::uint64_t kind) {
-    if constexpr (Kind == std::variant_size_v<Command>) {
-        return Undo{};
-    } else {
-        return kind == Kind ? Command(std::in_place_index<Kind>) : make_command<Kind + 1>(kind);
-    }
+template <class Archive, class T>
+void archive_field(Archive& archive, std::vector<T>& rows) {
+    archive.rows(rows);
 }
 
 template <class Archive>
@@ -85,7 +37,11 @@ void archive_recorded(Archive& archive, Recorded& recorded) {
     std::uint64_t kind = recorded.command.index();
     archive.value(kind);
     if constexpr (Archive::reads) { recorded.command = make_command(kind); }
-    std::visit([&](auto& command) { archive_command(archive, command); }, recorded.command);
+    std::visit(
+        [&](auto& command) {
+            each_field(command, [&](const char*, auto& value, Need) { archive_field(archive, value); });
+        },
+        recorded.command);
 }
 
 template <class Archive>

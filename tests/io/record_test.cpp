@@ -117,3 +117,36 @@ TEST_CASE("a file that is no record is refused in one line") {
         "state_hash must be 16 hexadecimal digits");
     CHECK(refusal_of(load_record(folder.file("none.json"))).find("none.json") != std::string::npos);
 }
+
+TEST_CASE("a record that is cut off or damaged anywhere is read or refused, never worse") {
+    const TemporaryFolder folder;
+    Record record{.scene = "s.json", .steps = 3};
+    for (const Command& command : commands()) {
+        record.commands.push_back({.step = 1, .command = command, .until = 2});
+    }
+    const std::string path = folder.file("r.json");
+    must(write_record(path, record));
+    std::ifstream file(path);
+    const std::string whole((std::istreambuf_iterator<char>(file)), {});
+    int read = 0, refused = 0;
+    const auto load = [&](const std::string& text) {
+        std::ofstream(path) << text;
+        const Result<Record> loaded = load_record(path);
+        ++(loaded ? read : refused);
+        if (!loaded) { CHECK(loaded.error().message.find('\n') == std::string::npos); }
+    };
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        load(whole.substr(0, at));
+        std::string damaged = whole;
+        damaged[at] = "\0\xff\"{}[]-9"[at % 9];
+        load(damaged);
+    }
+    CHECK(refused > int(whole.size()));
+    CHECK(read > 0);
+    CHECK(refusal_of(parse_command(std::string(100000, '['))) ==
+          "a command is one JSON object; this is no JSON");
+    CHECK(refusal(R"({"set_gravity": {"gravity": [0, 0, 1e999]}})") ==
+          "a command is one JSON object; this is no JSON");
+    CHECK(refusal(R"({"release": {"grasp": 18446744073709551615}})") ==
+          "release: grasp must be a whole number");
+}
