@@ -60,7 +60,7 @@ struct SetGravity {
 };
 
 /// Gives a region another material; its density stays. The time step is chosen anew, as Setup::time_step
-/// says.
+/// says. What is strained stores energy in proportion: stiffening it by much drives it.
 struct SetMaterial {
     Index region = 0; // row of Setup::materials
     Material material = {};

@@ -84,6 +84,12 @@ Result<void> check_prescription(const Engine& engine, const Prescribe& told) {
             return Error{fmt::format("prescribe: node {} is fixed; leave it out", node)};
         }
     }
+    for (const Index node : told.displacement.empty() ? std::span<const Index>() : told.nodes) {
+        const std::vector<Index>& nodes = engine.classes[row(node)];
+        if (std::any_of(nodes.begin(), nodes.end(), [&](Index at) { return is_grasped(engine, at); })) {
+            return Error{fmt::format("prescribe: node {} is grasped; release it first", node)};
+        }
+    }
     if (!told.displacement.empty() && told.displacement.size() != told.nodes.size()) {
         return Error{
             fmt::format("prescribe: {} displacements for {} nodes; give one a node, or none to let go",

@@ -194,11 +194,12 @@ bool cut_through(Engine& engine, const BladeWay& way, CutReport& report);
 /// Sweeps one blade through tissue that is held still.
 void sweep_still(Engine& engine, Index blade, const Edge& from, const Edge& to, CutReport& report);
 
-// grasps.cpp
+// tools.cpp
+bool is_grasped(const Engine& engine, Index node);
 /// Free nodes whose material lies within `radius` of a point now.
 std::vector<GraspedNode> find_grasped(const Engine& engine, const Vec3& at, double radius);
-/// Takes what is grasped one step further.
-void move_grasps(Engine& engine);
+/// Puts prescribed nodes where they are told, and takes what is grasped one step further.
+void move_told_nodes(Engine& engine);
 /// After a cut: nodes are grasped, or not any more, by where their material is.
 void update_grasps(Engine& engine, std::span<const Delta::NewNode> added);
 

@@ -13,23 +13,6 @@ namespace {
 // them.
 constexpr Index nodes_a_chunk = 1024;
 
-/// Prescribed nodes arrive where they are told within one step and stay.
-void move_prescribed(Engine& engine) {
-    if (engine.prescribed.empty()) { return; }
-    const SimulationMesh& mesh = simulation_mesh(*engine.cutter);
-    const float inverse_step = static_cast<float>(1 / engine.tissue.time_step);
-    for (const auto& [reference, displacement] : engine.prescribed) {
-        const Vec3f target = to_float(displacement);
-        for (const Index index : engine.classes[row(reference)]) {
-            const std::size_t node = row(index);
-            if (engine.nodes.inverse_mass[node] != 0 || mesh.node_held[node]) { continue; }
-            engine.nodes.velocity[node] = inverse_step * (target - engine.nodes.displacement[node]);
-            engine.nodes.displacement[node] = target;
-            place_node(engine.packing, engine.nodes, index);
-        }
-    }
-}
-
 /// One part after the other, by the number of the step and never by the clock: bits do not depend on speed.
 void repack_one_part(Engine& engine) {
     const auto parts = static_cast<std::int64_t>(engine.packing.parts.size());
@@ -60,8 +43,7 @@ StepSums update_nodes(Engine& engine) {
 }
 
 bool step_motion(Engine& engine) {
-    move_prescribed(engine);
-    move_grasps(engine);
+    move_told_nodes(engine);
     compute_forces(engine);
     const StepSums sums = update_nodes(engine);
     // A body that crosses its own size in a step has blown up, and is stopped while its numbers are still

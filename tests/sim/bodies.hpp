@@ -29,6 +29,12 @@ inline Setup free_block(Index n, double young = 2e4) {
 /// A horizontal edge along y, right across a block of 0.1 m, sweeping down through x = `at`.
 inline Edge edge_above(double at, double z) { return {{at, 0.15, z}, {at, -0.05, z}}; }
 
+/// The line with which a command is refused; empty if it is not.
+inline std::string refusal(Simulation& simulation, const Command& command) {
+    const Result<void> applied = simulation.apply(command);
+    return applied ? "" : applied.error().message;
+}
+
 inline Vec3 momentum(const Simulation& simulation) {
     Vec3 sum = {};
     const Nodes nodes = simulation.nodes();

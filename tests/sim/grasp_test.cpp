@@ -25,11 +25,6 @@ std::size_t node_at(const Simulation& simulation, const Vec3& point) {
     return nearest;
 }
 
-std::string refusal(Simulation& simulation, const Command& command) {
-    const Result<void> applied = simulation.apply(command);
-    return applied ? "" : applied.error().message;
-}
-
 } // namespace
 
 TEST_CASE("a grasp takes the tissue in reach along, pins it, and lets go") {
@@ -135,4 +130,75 @@ TEST_CASE("grasps that cannot be are refused in one line") {
     must(simulation.apply(Grasp{.at = far_corner, .radius = 0.005}));
     CHECK(refusal(simulation, Grasp{.at = far_corner, .radius = 0.005}) ==
           "grasp 0: holds tissue already; release it first");
+}
+
+TEST_CASE("a node is not told where to be twice") {
+    Simulation simulation = must(Simulation::create(held_block(4)));
+    const auto corner = static_cast<Index>(simulation.nodes().reference[node_at(simulation, far_corner)]);
+    must(simulation.apply(Grasp{.at = far_corner, .radius = 0.005}));
+    CHECK(refusal(simulation, Prescribe{{corner}, {{0.01, 0, 0}}}) ==
+          "prescribe: node 124 is grasped; release it first");
+    must(simulation.apply(Release{}));
+    must(simulation.apply(Prescribe{{corner}, {{0.01, 0, 0}}}));
+    CHECK(refusal(simulation, Grasp{.at = far_corner + Vec3{0.01, 0, 0}, .radius = 0.005})
+              .starts_with("grasp 0: no free tissue"));
+}
+
+TEST_CASE("a side of a cut node that is grasped follows the grasp, and the prescribed one stays") {
+    Simulation simulation = must(Simulation::create(held_block(4)));
+    const std::size_t node = node_at(simulation, {0.1, 0.05, 0.1});
+    const Index reference = simulation.nodes().reference[node];
+    must(simulation.apply(Prescribe{{reference}, {{0, 0, 0}}}));
+    must(
+        simulation.cut({{0.15, 0.06, 0.15}, {0.03, 0.06, 0.15}}, {{0.15, 0.06, -0.05}, {0.03, 0.06, -0.05}}));
+    must(simulation.apply(Grasp{.at = {0.1, 0.08, 0.1}, .radius = 0.021}));
+    must(simulation.apply(MoveGrasp{.to = {0.1, 0.085, 0.1}}));
+    simulation.advance(0.1);
+    const Nodes nodes = simulation.nodes();
+    CHECK(length(to_double(nodes.displacement[node])) == 0);
+    for (std::size_t n = 0; n < nodes.rest.size(); ++n) {
+        if (nodes.reference[n] == reference && n != node) {
+            CHECK(length(to_double(nodes.displacement[n]) - Vec3{0, 0.005, 0}) < 1e-7);
+            CHECK(length(to_double(nodes.velocity[n])) < 0.1);
+        }
+    }
+}
+
+TEST_CASE("a grasp that is torn away ends the run in words, and a stroke begun before brings it back") {
+    Simulation simulation = must(Simulation::create(held_block(4)));
+    must(simulation.cut(edge_above(0.05, 0.15), edge_above(0.05, 0.08)));
+    must(simulation.apply(Grasp{.at = far_corner, .radius = 0.03}));
+    must(simulation.apply(MoveGrasp{.to = {1e6, -1e6, 1e6}}));
+    const StepReport report = simulation.advance(0.05);
+    CHECK(report.status == Status::diverged);
+    CHECK(report.reason.starts_with("diverged in step "));
+    for (const Vec3f& u : simulation.nodes().displacement) {
+        CHECK(is_finite(u));
+    }
+    must(simulation.apply(Undo{}));
+    CHECK(simulation.advance(0.05).status == Status::ok);
+}
+
+TEST_CASE("twenty grasps in one place, all let go, leave a body that comes to rest") {
+    Simulation simulation = must(Simulation::create(held_block(4)));
+    std::vector<Index> held;
+    for (Index grasp = 0; grasp < 20; ++grasp) {
+        const double radius = 0.02 + 0.004 * grasp; // some find nothing that is not grasped yet
+        if (refusal(simulation, Grasp{.grasp = grasp, .at = far_corner, .radius = radius}) != "") {
+            continue;
+        }
+        held.push_back(grasp);
+        must(simulation.apply(MoveGrasp{.grasp = grasp, .to = far_corner + Vec3{0, 0, 0.001 * (grasp % 3)}}));
+        CHECK(simulation.advance(0.01).status == Status::ok);
+    }
+    CHECK(held.size() > 5);
+    for (const Index grasp : held) {
+        must(simulation.apply(Release{.grasp = grasp}));
+        CHECK(refusal(simulation, Release{.grasp = grasp}) != "");
+    }
+    Simulation still = must(Simulation::create(held_block(4)));
+    must(still.apply(Grasp{.at = {}, .radius = std::numeric_limits<double>::infinity()})); // all of it
+    CHECK(still.advance(0.05).status == Status::ok);
+    CHECK(simulation.advance(1).status == Status::ok);
+    CHECK(simulation.strain().elements_inverted == 0);
 }

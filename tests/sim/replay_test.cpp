@@ -65,3 +65,16 @@ TEST_CASE("a record that does not fit its body is refused with the command's num
           "command 1 of the record: blade 3: is not there to be lifted; place it with MoveBlade first");
     CHECK(simulation.steps() == 9);
 }
+
+TEST_CASE("steps of a record that cannot be are refused, and those that lie behind do not go back") {
+    Simulation simulation = must(Simulation::create(swinging_block(1)));
+    const std::int64_t far = std::numeric_limits<std::int64_t>::max();
+    const Result<void> late = simulation.replay(std::vector<Recorded>{{.step = far, .command = Undo{}}}, far);
+    REQUIRE(!late);
+    CHECK(late.error().message.starts_with("advance("));
+    must(
+        simulation.replay(std::vector<Recorded>{{.step = -far, .command = SetGravity{}, .until = -far}}, -1));
+    CHECK(simulation.steps() == 0);
+    must(simulation.replay({}, 7));
+    CHECK(simulation.steps() == 7);
+}
