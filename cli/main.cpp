@@ -65,6 +65,21 @@ void add_replay(CLI::App& app, cli::ReplayOptions& options, int& status) {
     command->callback([&] { status = cli::replay(options); });
 }
 
+void add_serve(CLI::App& app, cli::ServeOptions& options, int& status) {
+    CLI::App* command = app.add_subcommand("serve", "the simulator: open its page and cut");
+    command
+        ->add_option("scene", options.scene, "scene file (JSON); its folder gives the scenes to choose from")
+        ->required();
+    command->add_option("--port", options.port, "0: any that is free")->check(CLI::Range(0, 65535));
+    command->add_option("--address", options.address, "to listen on; 0.0.0.0 lets other machines in");
+    command->add_option("--name", options.names, "host name that pages may be opened by, beside localhost");
+    command->add_option("--threads", options.threads, "threads; 0: half of the cores")
+        ->check(CLI::Range(0, 256));
+    command->add_option("--out", options.out, "folder for records, surfaces and uploads");
+    add_isa(*command, options.isa);
+    command->callback([&] { status = cli::serve(options); });
+}
+
 void add_mesh(CLI::App& app, cli::MeshOptions& options, int& status) {
     CLI::App* command = app.add_subcommand("mesh", "make the mesh of a body");
     command->add_option("body", options.source, "liver or block")->required();
@@ -130,12 +145,14 @@ int run_program(int argc, char** argv) {
     int status = cli::done;
     cli::RunOptions run;
     cli::ReplayOptions replay;
+    cli::ServeOptions serve;
     cli::MeshOptions mesh;
     std::string info;
     cli::PictureOptions picture;
     cli::BenchOptions bench;
     add_run(app, run, status);
     add_replay(app, replay, status);
+    add_serve(app, serve, status);
     add_mesh(app, mesh, status);
     add_info(app, info, status);
     add_picture(app, picture, status);

@@ -31,6 +31,16 @@ struct ReplayOptions {
     std::string surface = {}; // file to write
 };
 
+struct ServeOptions {
+    std::string scene = {};
+    std::string address = "127.0.0.1";
+    int port = 8080;
+    std::vector<std::string> names = {};
+    int threads = 0; // 0: half of the cores
+    std::string isa = {};
+    std::string out = "out";
+};
+
 struct MeshOptions {
     std::string source = {}; // liver or block
     std::string out = {};
@@ -60,6 +70,7 @@ struct BenchOptions {
 
 int run(const RunOptions& options);
 int replay(const ReplayOptions& options);
+int serve(const ServeOptions& options);
 int mesh(const MeshOptions& options);
 int info(const std::string& path);
 int picture(const PictureOptions& options);

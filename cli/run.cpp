@@ -67,18 +67,6 @@ Result<void> simulate(const Scene& scene, const RunOptions& options, SceneRun& r
     return written;
 }
 
-/// The scene's path counts from the record's folder, so that both may move together.
-Result<void> save_record(const RunOptions& options, const Simulation& simulation) {
-    const std::filesystem::path folder = std::filesystem::absolute(options.record).parent_path();
-    const std::filesystem::path scene = std::filesystem::absolute(options.scene).lexically_relative(folder);
-    const std::span<const Recorded> commands = simulation.record();
-    return write_record(options.record, {.scene = scene.generic_string(),
-                                         .overrides = options.overrides,
-                                         .commands = {commands.begin(), commands.end()},
-                                         .steps = simulation.steps(),
-                                         .hash = simulation.hash()});
-}
-
 } // namespace
 
 int run(const RunOptions& options) {
@@ -103,7 +91,9 @@ int run(const RunOptions& options) {
     if (written && folder) { written = folder->finish(run.simulation()); }
     if (!written) { return refuse(written.error().message); }
 
-    if (written && !options.record.empty()) { written = save_record(options, run.simulation()); }
+    if (!options.record.empty()) {
+        written = write_record(options.record, options.scene, options.overrides, run.simulation());
+    }
     const std::string json = report_json(options.scene, options.threads, initial, run);
     if (folder) { written = write_text(folder->path("report.json"), json); }
     if (written && !options.json.empty()) { written = write_text(options.json, json); }

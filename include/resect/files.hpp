@@ -67,6 +67,9 @@ struct Record {
     std::uint64_t hash = 0; // Simulation::hash() then
 };
 Result<void> write_record(const std::string& path, const Record& record);
+/// What was done so far to a simulation of the scene at the path `scene`.
+Result<void> write_record(const std::string& path, const std::string& scene,
+                          std::span<const std::string> overrides, const Simulation& simulation);
 Result<Record> load_record(const std::string& path);
 
 /// One file of a series in time.

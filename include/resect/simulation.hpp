@@ -65,9 +65,13 @@ public:
     /// Today's material over the elements: export, or a start for other methods.
     Body material() const;
     std::vector<double> von_mises() const; // [copy] Cauchy, Pa
+    /// [triangle of surface()] the row of copies() that it is a face of: brings fields of copies to the
+    /// surface.
+    std::vector<Index> surface_copies();
     std::span<const Piece> pieces();
     /// The commands applied; not what advance(), settle() and cut() were asked for.
     std::span<const Recorded> record() const;
+    Index undoable_strokes() const; // how many Undo can go back
     Energies energies() const;
     TimeStep time_step() const;
     Strain strain() const;

@@ -58,6 +58,8 @@ std::span<const Index> piece_of_copy(const Cutter& cutter);
 
 /// The boundary of M: topology brought up to date if M changed, positions and normals evaluated.
 Surface update_surface(Cutter& cutter, std::span<const Vec3f> displacement, std::uint64_t since_revision);
+/// [triangle] Its copy; the topology is brought up to date.
+std::vector<Index> copy_of_triangle(Cutter& cutter);
 
 /// M as a body over R.
 Body material_body(const Cutter& cutter);

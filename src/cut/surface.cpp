@@ -54,4 +54,14 @@ Surface update_surface(Cutter& cutter, std::span<const Vec3f> displacement, std:
     return view;
 }
 
+std::vector<Index> copy_of_triangle(Cutter& cutter) {
+    update_surface_topology(cutter);
+    std::vector<Index> copies;
+    copies.reserve(cutter.surface.link.size());
+    for (const Index link : cutter.surface.link) {
+        copies.push_back(cutter.material.tet(tet_of(link)).copy);
+    }
+    return copies;
+}
+
 } // namespace resect

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -84,6 +85,19 @@ Result<void> write_record(const std::string& path, const Record& record) {
     }
     text += fmt::format("\n],\n\"steps\": {},\n\"state_hash\": \"{:016x}\"\n}}\n", record.steps, record.hash);
     return write_file(path, text);
+}
+
+/// The scene's path counts from the record's folder, so that both may move together.
+Result<void> write_record(const std::string& path, const std::string& scene,
+                          std::span<const std::string> overrides, const Simulation& simulation) {
+    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    const std::span<const Recorded> commands = simulation.record();
+    return write_record(
+        path, {.scene = std::filesystem::absolute(scene).lexically_relative(folder).generic_string(),
+               .overrides = {overrides.begin(), overrides.end()},
+               .commands = {commands.begin(), commands.end()},
+               .steps = simulation.steps(),
+               .hash = simulation.hash()});
 }
 
 Result<Record> load_record(const std::string& path) {

@@ -174,11 +174,15 @@ std::vector<double> Simulation::von_mises() const {
     return stress;
 }
 
+std::vector<Index> Simulation::surface_copies() { return copy_of_triangle(*engine_->cutter); }
+
 std::span<const Piece> Simulation::pieces() {
     return update_pieces(*engine_->cutter, engine_->nodes.displacement, engine_->fixed);
 }
 
 std::span<const Recorded> Simulation::record() const { return engine_->record; }
+
+Index Simulation::undoable_strokes() const { return static_cast<Index>(engine_->strokes.size()); }
 
 /// All at the half step behind, where the velocity is: there the works of the dampings and the energies
 /// balance.

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/serve.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <thread>
+
+#include "options.hpp"
+
+namespace cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Half of the cores: the page and the network want theirs.
+int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2); }
+
+server::TheatreOptions theatre_options(const ServeOptions& options) {
+    const fs::path scene = fs::absolute(options.scene);
+    server::TheatreOptions theatre = {
+        .scenes = server::list_scenes(scene.parent_path().string()),
+        .threads = options.threads > 0 ? options.threads : default_threads(),
+        .folder = options.out,
+    };
+    const auto found =
+        std::find_if(theatre.scenes.begin(), theatre.scenes.end(),
+                     [&](const server::SceneEntry& one) { return one.name == scene.stem().string(); });
+    theatre.first =
+        found != theatre.scenes.end()
+            ? *found
+            : server::SceneEntry{scene.stem().string(), scene.stem().string(), {}, scene.string()};
+    return theatre;
+}
+
+} // namespace
+
+int serve(const ServeOptions& options) {
+    const fs::path pages = fs::path(RESECT_WEB_FOLDER) / "dist/simulator";
+    if (!fs::exists(pages / "index.html")) {
+        return refuse(
+            fmt::format("serve: {} is missing; ./run builds the page", (pages / "index.html").string()));
+    }
+    const server::ServeOptions told = {
+        .network = {.address = options.address, .port = options.port, .names = options.names},
+        .theatre = theatre_options(options),
+        .pages = pages.string(),
+    };
+    const resect::Result<void> served = server::serve(told, [&](int port) {
+        fmt::print("Open http://{}:{}/ and cut; Ctrl-C ends it.\n",
+                   options.address == "127.0.0.1" ? "localhost" : options.address, port);
+        std::fflush(stdout);
+    });
+    return served ? done : refuse(served.error().message);
+}
+
+} // namespace cli
