@@ -120,6 +120,7 @@ public:
         times.keep_alive_pings = true;
         socket_.set_option(times);
         socket_.read_message_max(longest_upload);
+        socket_.auto_fragment(false); // a frame is one piece; only compression would need a copy
         request_ = std::move(request);
         socket_.async_accept(request_, [self = shared_from_this()](Failure failure) {
             if (failure) { return; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the picture page into one HTML file, or, with --tests, each test into one file that Node can run.
-import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+// Bundles the picture page into one HTML file and the simulator into a folder, or, with --tests, each test into one file
+// that Node can run.
+import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
@@ -9,7 +10,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const dist = join(here, 'dist');
 mkdirSync(dist, { recursive: true });
 
-async function buildPage() {
+async function buildPicture() {
   const result = await build({
     entryPoints: [join(here, 'src/picture_page.ts')],
     bundle: true, minify: true, format: 'iife', target: 'es2022', legalComments: 'inline', write: false,
@@ -18,6 +19,18 @@ async function buildPage() {
   const script = result.outputFiles[0].text.replaceAll('</script', '<\\/script');
   const page = readFileSync(join(here, 'src/picture.html'), 'utf8');
   writeFileSync(join(dist, 'picture.html'), page.replace('/* script */', () => script));
+}
+
+async function buildSimulator() {
+  const source = join(here, 'src/simulator'), out = join(dist, 'simulator');
+  rmSync(out, { recursive: true, force: true });
+  await build({
+    entryPoints: [join(source, 'simulator.ts'), join(source, 'simulator.css')],
+    bundle: true, minify: true, format: 'iife', target: 'es2022', legalComments: 'inline', outdir: out, logLevel: 'warning',
+  });
+  cpSync(join(source, 'simulator.html'), join(out, 'index.html'));
+  const thumbnails = join(here, 'thumbnails');
+  if (existsSync(thumbnails)) cpSync(thumbnails, join(out, 'thumbnails'), { recursive: true });
 }
 
 async function buildTests() {
@@ -29,4 +42,5 @@ async function buildTests() {
   });
 }
 
-await (process.argv.includes('--tests') ? buildTests() : buildPage());
+if (process.argv.includes('--tests')) await buildTests();
+else await Promise.all([buildPicture(), buildSimulator()]);

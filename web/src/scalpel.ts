@@ -11,17 +11,19 @@ export interface Scalpel {
  * The engine's blade has no spine; here it points up, or, for an upright blade, so that the eye sees its flat side.
  */
 export function createScalpel(heel: Vector3, tip: Vector3, eye: Vector3): Scalpel {
+  const length = heel.distanceTo(tip);
+  const place = placeScalpel(heel, tip, eye);
+  return { blade: bladeShape(length).applyMatrix4(place), handle: handleShape(length).applyMatrix4(place) };
+}
+
+/** Where a scalpel of the shapes below, which lie along x from the heel at 0, stands for these ends of its edge. */
+export function placeScalpel(heel: Vector3, tip: Vector3, eye: Vector3): Matrix4 {
   const along = tip.clone().sub(heel);
-  const length = along.length();
-  along.divideScalar(length);
+  along.normalize();
   const spine = new Vector3(0, 0, 1).addScaledVector(along, -along.z);
   if (spine.length() < 0.35) spine.copy(eye).sub(heel).cross(along);
   spine.normalize();
-  const place = new Matrix4().makeBasis(along, spine, along.clone().cross(spine)).setPosition(heel);
-  return {
-    blade: bladeShape(length).applyMatrix4(place),
-    handle: handleShape(length).applyMatrix4(place),
-  };
+  return new Matrix4().makeBasis(along, spine, along.clone().cross(spine)).setPosition(heel);
 }
 
 /** Width of the blade at a part s of its length: full at the heel, curved down to the tip. */
@@ -30,7 +32,7 @@ function bladeWidth(s: number, length: number): number {
 }
 
 /** Rows of cross-sections: the edge, two grind lines, two corners of the spine; flat facets as ground steel has them. */
-function bladeShape(length: number): BufferGeometry {
+export function bladeShape(length: number): BufferGeometry {
   const rows = 40;
   const half = 0.0045 * length;
   const corners: number[] = [];
@@ -51,7 +53,7 @@ function bladeShape(length: number): BufferGeometry {
   return shape;
 }
 
-function handleShape(length: number): BufferGeometry {
+export function handleShape(length: number): BufferGeometry {
   const long = 1.05 * length, wide = 0.034 * length;
   const shape = new CapsuleGeometry(wide, long - 2 * wide, 12, 32);
   shape.applyMatrix4(new Matrix4().makeRotationFromQuaternion(new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), Math.PI / 2)));

@@ -6,24 +6,40 @@ import {
 } from 'three';
 import { radicalInverse } from './spread.ts';
 
+/** How many directions of the sky are looked from, and how finely. */
+export interface SkyLayout {
+  /** The depth pictures lie in a square of so many by so many. */
+  side: number;
+  /** Pixels of one. */
+  size: number;
+}
+const stillLayout: SkyLayout = { side: 2, size: 768 };
+
+/** Light that comes up from the floor, as a part of what comes down. */
+const floorBounce = 0.5;
+
 /**
  * How much of the surrounding light reaches a place. Each pass of a picture looks from a few directions of the sky, with
  * a hard shadow each; over all passes the mean is true ambient occlusion, in the folds of the organ and on the floor.
  */
-const tiles = 4;
-const tileSize = 768;
-/** Light that comes up from the floor, as a part of what comes down. */
-const floorBounce = 0.5;
-
 export interface SkyShadow {
   uniforms: Record<string, { value: unknown }>;
-  look(renderer: WebGLRenderer, pass: number, passes: number): void;
+  /** Of the shader, in GLSL. */
+  declarations: string;
+  /** Looks from the directions of a pass, or from the one of `only`. */
+  look(renderer: WebGLRenderer, pass: number, passes: number, only?: number): void;
+  /** Takes another place in view. */
+  surround(centre: Vector3, radius: number): void;
   dispose(): void;
 }
 
-export function createSkyShadow(casters: BufferGeometry[], centre: Vector3, radius: number, fromBelow: boolean): SkyShadow {
-  const target = new WebGLRenderTarget(2 * tileSize, 2 * tileSize);
-  target.depthTexture = new DepthTexture(2 * tileSize, 2 * tileSize, UnsignedIntType);
+export function createSkyShadow(
+  casters: BufferGeometry[], centre: Vector3, radius: number, fromBelow: boolean, { side, size }: SkyLayout = stillLayout,
+): SkyShadow {
+  const tiles = side * side;
+  const place = { centre, radius };
+  const target = new WebGLRenderTarget(side * size, side * size);
+  target.depthTexture = new DepthTexture(side * size, side * size, UnsignedIntType);
   target.depthTexture.compareFunction = LessEqualCompare;
   target.depthTexture.minFilter = target.depthTexture.magFilter = LinearFilter;
   target.scissorTest = true;
@@ -42,21 +58,30 @@ export function createSkyShadow(casters: BufferGeometry[], centre: Vector3, radi
   };
   return {
     uniforms,
-    look(renderer, pass, passes) {
+    declarations: declare(side),
+    surround(aroundCentre, aroundRadius) {
+      place.centre = aroundCentre;
+      place.radius = aroundRadius;
+      Object.assign(camera, { left: -aroundRadius, right: aroundRadius, top: aroundRadius, bottom: -aroundRadius, far: 2 * aroundRadius });
+      camera.updateProjectionMatrix();
+      uniforms.skyRadius.value = aroundRadius;
+    },
+    look(renderer, pass, passes, only) {
       uniforms.skySeed.value.set(radicalInverse(pass, 2), radicalInverse(pass, 3));
       const before = renderer.getRenderTarget();
-      for (let tile = 0; tile < tiles; ++tile) {
+      for (let tile = only ?? 0; tile < (only === undefined ? tiles : only + 1); ++tile) {
+        const column = tile % side, line = Math.floor(tile / side);
         const direction = skyDirection(tile * passes + pass, tiles * passes);
         camera.up.set(Math.abs(direction.z) > 0.9 ? 1 : 0, 0, Math.abs(direction.z) > 0.9 ? 0 : 1);
-        camera.position.copy(centre).addScaledVector(direction, radius);
-        camera.lookAt(centre);
+        camera.position.copy(place.centre).addScaledVector(direction, place.radius);
+        camera.lookAt(place.centre);
         camera.updateMatrixWorld();
-        const corner = new Vector2(tile % 2, Math.floor(tile / 2)).multiplyScalar(tileSize);
-        target.viewport.set(corner.x, corner.y, tileSize, tileSize);
+        target.viewport.set(column * size, line * size, size, size);
         target.scissor.copy(target.viewport);
         renderer.setRenderTarget(target);
         renderer.render(scene, camera);
-        matrices[tile].set(0.25, 0, 0, 0.25 + 0.5 * (tile % 2), 0, 0.25, 0, 0.25 + 0.5 * Math.floor(tile / 2), 0, 0, 0.5, 0.5, 0, 0, 0, 1)
+        const half = 0.5 / side;
+        matrices[tile].set(half, 0, 0, half * (1 + 2 * column), 0, half, 0, half * (1 + 2 * line), 0, 0, 0.5, 0.5, 0, 0, 0, 1)
           .multiply(camera.projectionMatrix).multiply(camera.matrixWorldInverse);
         directions[tile].set(direction.x, direction.y, direction.z, direction.z > 0 !== fromBelow ? 1 : floorBounce);
       }
@@ -76,11 +101,14 @@ function skyDirection(i: number, count: number): Vector3 {
   return new Vector3(Math.cos(turn), Math.sin(turn), 0).multiplyScalar(Math.sqrt(1 - z * z)).setZ(z);
 }
 
-const declarations = /* glsl */ `
+const declare = (side: number) => /* glsl */ `
 varying vec3 skyPlace;
+#ifdef NO_SKY
+float openSky(vec3 normalInWorld) { return 0.72 + 0.28 * normalInWorld.z; }
+#else
 uniform highp sampler2DShadow skyDepth;
-uniform mat4 skyMatrix[${tiles}];
-uniform vec4 skyDirection[${tiles}];
+uniform mat4 skyMatrix[${side * side}];
+uniform vec4 skyDirection[${side * side}];
 uniform float skyRadius;
 uniform vec2 skySeed;
 float openSky(vec3 normalInWorld) {
@@ -92,9 +120,9 @@ float openSky(vec3 normalInWorld) {
   const vec2 cell = vec2(0.0);
 #endif
   float turn = 6.2831853 * fract(cell.x + skySeed.x);
-  float spread = 0.014 * sqrt(fract(cell.y + skySeed.y));
+  float spread = ${(0.028 / side).toFixed(4)} * sqrt(fract(cell.y + skySeed.y));
   float open = 0.0;
-  for (int i = 0; i < ${tiles}; ++i) {
+  for (int i = 0; i < ${side * side}; ++i) {
     float facing = dot(normalInWorld, skyDirection[i].xyz);
     if (facing <= 0.0) continue;
     vec4 place = skyMatrix[i] * vec4(skyPlace + (0.012 * skyRadius) * normalInWorld, 1.0);
@@ -103,22 +131,29 @@ float openSky(vec3 normalInWorld) {
     open += facing * skyDirection[i].w * texture(skyDepth, vec3(place.xy + offset, place.z - slack));
     turn += 2.4;
   }
-  return 4.0 * open / float(${tiles});
+  return 4.0 * open / float(${side * side});
 }
+#endif
 `;
 
 /** The lamp's shadow filter draws the same grain in every pass; moved about, it averages out. */
-const lampShadow = ShaderChunk.shadowmap_pars_fragment.replaceAll('gl_FragCoord.xy', '(gl_FragCoord.xy + 131.0 * skySeed)');
+const lampShadow = `#ifdef NO_SKY
+const vec2 skySeed = vec2(0.0);
+#endif
+${ShaderChunk.shadowmap_pars_fragment.replaceAll('gl_FragCoord.xy', '(gl_FragCoord.xy + 131.0 * skySeed)')}`;
+
+/** Changes a material's shader before it is compiled. */
+export type ShaderChange = (shader: { vertexShader: string; fragmentShader: string; uniforms: Record<string, { value: unknown }> }) => void;
 
 /** Lets a material see the sky shadow: `openSky` scales all light that comes from the environment. */
-export function shadeBySky(material: Material, sky: SkyShadow, change?: (shader: { vertexShader: string; fragmentShader: string; uniforms: Record<string, { value: unknown }> }) => void): void {
+export function shadeBySky(material: Material, sky: SkyShadow, change?: ShaderChange): void {
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, sky.uniforms);
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', '#include <common>\nvarying vec3 skyPlace;')
       .replace('#include <project_vertex>', '#include <project_vertex>\nskyPlace = (modelMatrix * vec4(transformed, 1.0)).xyz;');
     shader.fragmentShader = shader.fragmentShader
-      .replace('#include <common>', '#include <common>\n' + declarations)
+      .replace('#include <common>', '#include <common>\n' + sky.declarations)
       .replace('#include <shadowmap_pars_fragment>', lampShadow)
       .replace('#include <lights_fragment_maps>', /* glsl */ `#include <lights_fragment_maps>
 float open = openSky(inverseTransformDirection(normal, viewMatrix));

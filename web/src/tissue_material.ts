@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Color, DoubleSide, MeshPhysicalMaterial } from 'three';
-import { shadeBySky, type SkyShadow } from './sky_shadow.ts';
+import { shadeBySky, type ShaderChange, type SkyShadow } from './sky_shadow.ts';
 
 const noise = /* glsl */ `
 varying vec3 tissuePlace;
@@ -54,9 +54,10 @@ outgoingLight += open * edge * vec3(0.085, 0.012, 0.010);
 
 /**
  * Wet organ tissue, painted in material coordinates so that the pattern stays with the flesh when it moves, and runs on
- * from one side of a cut to the other. `size` is the rest diagonal that one pattern spans.
+ * from one side of a cut to the other. `size` is the rest diagonal that one pattern spans; `more` changes the shader
+ * further. A live page sets another size in `userData.scale.value`, as one part by it.
  */
-export function createTissueMaterial(sky: SkyShadow, size: number): MeshPhysicalMaterial {
+export function createTissueMaterial(sky: SkyShadow, size: number, more?: ShaderChange): MeshPhysicalMaterial {
   const material = new MeshPhysicalMaterial({
     side: DoubleSide,
     roughness: 0.46,
@@ -71,6 +72,7 @@ export function createTissueMaterial(sky: SkyShadow, size: number): MeshPhysical
     fleshColour: { value: new Color(0x8f342a) },
     fleshSpot: { value: new Color(0xae5347) },
   };
+  material.userData.scale = uniforms.tissueScale;
   shadeBySky(material, sky, (shader) => {
     Object.assign(shader.uniforms, uniforms);
     shader.vertexShader = shader.vertexShader
@@ -81,6 +83,7 @@ export function createTissueMaterial(sky: SkyShadow, size: number): MeshPhysical
       .replace('#include <color_fragment>', paint)
       .replace('#include <clearcoat_normal_fragment_begin>', relief)
       .replace('#include <opaque_fragment>', glow);
+    more?.(shader);
   });
   return material;
 }
