@@ -82,7 +82,7 @@ void add_serve(CLI::App& app, cli::ServeOptions& options, int& status) {
 
 void add_mesh(CLI::App& app, cli::MeshOptions& options, int& status) {
     CLI::App* command = app.add_subcommand("mesh", "make the mesh of a body");
-    command->add_option("body", options.source, "liver or block")->required();
+    command->add_option("body", options.source, "liver, kidney or block")->required();
     command
         ->add_option("-o,--out", options.out, "mesh file (.vtu .vtk .msh), or surface (.obj .stl .ply .vtp)")
         ->required();

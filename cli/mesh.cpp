@@ -15,14 +15,15 @@ using resect::Result;
 
 Result<Body> make(const MeshOptions& options) {
     if (options.source == "liver") { return resect::make_liver(options.lattice); }
+    if (options.source == "kidney") { return resect::make_kidney(options.lattice); }
     if (options.source == "block") {
         const resect::Vec3 size{options.size[0], options.size[1], options.size[2]};
         const std::array<resect::Index, 3> cells{options.cells[0], options.cells[1], options.cells[2]};
         return resect::make_block(size, cells,
                                   options.split == "bcc" ? resect::Split::bcc : resect::Split::six);
     }
-    return resect::Error{
-        fmt::format("mesh: '{}' is not a body that can be made; give liver or block", options.source)};
+    return resect::Error{fmt::format("mesh: '{}' is not a body that can be made; give liver, kidney or block",
+                                     options.source)};
 }
 
 bool is_surface(const std::string& path) {

@@ -60,6 +60,9 @@ Result<Body> make_block(Vec3 size, std::array<Index, 3> cells, Split split = Spl
 /// Lattice{.elements = N} gives N elements within 1 %, and exactly 6097 for 6097.
 Result<Body> make_liver(Lattice lattice);
 
+/// A body like a kidney, 0.12 m long, own implicit shape; z along its length, the hilum towards +x.
+Result<Body> make_kidney(Lattice lattice);
+
 /// The body where `inside_below_zero` is negative, which must lie in `bounds`; the function should be about a
 /// distance in metres near the boundary.
 Result<Body> make_body(const std::function<double(Vec3)>& inside_below_zero, Box bounds, Lattice lattice);

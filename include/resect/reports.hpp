@@ -75,9 +75,9 @@ struct Range {
 /// The boundary of the material, closed and oriented outwards by its points. Edges may carry four triangles
 /// where a crack pinches.
 ///
-/// A point, a vertex of the material, has one vertex here for each value of `face` around it: normals, which
-/// are means by area, are smooth over the outer surface and over each side of a sheet, and break at the lips.
-/// Vertices of one point have the same position, bit for bit, in any deformation.
+/// A point, a vertex of the material, has one vertex here for each value of `face` around it: normals are
+/// means over the triangles around, smooth over the outer surface and over each side of a sheet, and break at
+/// the lips. Vertices of one point have the same position, bit for bit, in any deformation.
 ///
 /// `rest` is where the material was at the start, m, and so the coordinates of a solid texture on outer and
 /// cut faces alike: the same on the two sides of a sheet, and changed by no deformation and no later cut.

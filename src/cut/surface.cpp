@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "cut/cutter_state.hpp"
 
 namespace resect {
@@ -17,15 +19,23 @@ void place_vertices(SurfaceCache& surface, std::span<const Vec3f> displacement) 
     }
 }
 
-/// Means by area over the triangles of one label around a point.
+/// Means over the triangles of one label around a point, with the weights of Max (1999), sine of the angle
+/// over the product of the two sides: exact on a sphere however unevenly it is triangulated. With weights by
+/// area a wet surface mirrors every triangle of the lattice.
 void compute_normals(SurfaceCache& surface) {
+    constexpr float nothing = 1e-30F; // m^2: two points in one place
     surface.normal.assign(surface.vertex.size(), {});
     for (const auto& [a, b, c] : surface.triangle) {
-        const Vec3f& origin = surface.position[row(a)];
-        const Vec3f twice_area = cross(surface.position[row(b)] - origin, surface.position[row(c)] - origin);
-        surface.normal[row(a)] += twice_area;
-        surface.normal[row(b)] += twice_area;
-        surface.normal[row(c)] += twice_area;
+        const Vec3f &p = surface.position[row(a)], &q = surface.position[row(b)],
+                    &r = surface.position[row(c)];
+        const Vec3f pq = q - p, qr = r - q, rp = p - r;
+        const Vec3f twice_area = cross(pq, -1.0F * rp);
+        const float from_pq = 1.0F / std::max(dot(pq, pq), nothing);
+        const float from_qr = 1.0F / std::max(dot(qr, qr), nothing);
+        const float from_rp = 1.0F / std::max(dot(rp, rp), nothing);
+        surface.normal[row(a)] += (from_pq * from_rp) * twice_area;
+        surface.normal[row(b)] += (from_pq * from_qr) * twice_area;
+        surface.normal[row(c)] += (from_qr * from_rp) * twice_area;
     }
     for (Vec3f& normal : surface.normal) {
         normal = direction(normal);

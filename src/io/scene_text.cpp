@@ -308,12 +308,13 @@ Material material_of(const json& value) {
             .viscous_time = value.value("viscous_time", automatic)};
 }
 
-std::variant<LiverSource, BlockSource, FileSource> mesh_of(const json& mesh) {
-    if (mesh.contains("liver")) {
-        const json& liver = mesh["liver"];
-        return LiverSource{
-            {liver.value("elements", Index{0}), liver.value("spacing", 0.0), liver["refine"].get<int>()}};
-    }
+Lattice lattice_of(const json& value) {
+    return {value.value("elements", Index{0}), value.value("spacing", 0.0), value["refine"].get<int>()};
+}
+
+decltype(SceneDescription::mesh) mesh_of(const json& mesh) {
+    if (mesh.contains("liver")) { return LiverSource{lattice_of(mesh["liver"])}; }
+    if (mesh.contains("kidney")) { return KidneySource{lattice_of(mesh["kidney"])}; }
     if (mesh.contains("block")) {
         const json& block = mesh["block"];
         return BlockSource{block["size"].get<Vec3>(), block["cells"].get<std::array<Index, 3>>(),
@@ -341,11 +342,15 @@ void read_tissue(const json& tissue, const Place& place, SceneDescription& descr
     for (const json& load : tissue["loads"]) {
         setup.loads.emplace_back(load["node"].get<Index>(), load["force"].get<Vec3>());
     }
+    description.initial_stretch = tissue["initial"]["stretch"].get<Vec3>();
     description.initial_displacement = tissue["initial"]["displacement"].get<std::string>();
     description.initial_velocity = tissue["initial"]["velocity"].get<std::string>();
     const bool moves = !description.initial_displacement.empty() || !description.initial_velocity.empty();
     if (moves && !std::holds_alternative<FileSource>(description.mesh)) {
         place.key("initial").refuse("names arrays of a mesh file, but the mesh is no file; take it out");
+    }
+    if (description.initial_stretch != Vec3{1, 1, 1} && !description.initial_displacement.empty()) {
+        place.key("initial").refuse("has both stretch and displacement; give one");
     }
 }
 

@@ -13,6 +13,9 @@ namespace resect {
 struct LiverSource {
     Lattice lattice = {};
 };
+struct KidneySource {
+    Lattice lattice = {};
+};
 struct BlockSource {
     Vec3 size = {};
     std::array<Index, 3> cells = {};
@@ -24,7 +27,8 @@ struct FileSource {
 
 /// What a scene file says, before any body is built.
 struct SceneDescription {
-    std::variant<LiverSource, BlockSource, FileSource> mesh = {};
+    std::variant<LiverSource, KidneySource, BlockSource, FileSource> mesh = {};
+    Vec3 initial_stretch = {1, 1, 1}; // about the origin
     std::string initial_displacement = {},
                 initial_velocity = {}; // point arrays of the mesh file; empty: none
     Scene scene = {};                  // with no body and no initial motion yet

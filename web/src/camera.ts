@@ -36,9 +36,15 @@ function setDepthRange(camera: PerspectiveCamera, distance: number): void {
 export function frameCamera(points: Float32Array, view: View, aspect: number): PerspectiveCamera {
   const direction = new Vector3(...eyeDirection[view]).normalize();
   const camera = placeCamera(direction.toArray(), [0, 0, 0], undefined, aspect);
-  const toView = new Matrix4().extractRotation(camera.matrixWorld).invert();
   const slopeY = Math.tan((camera.fov * Math.PI) / 360) * 0.8;
-  const slopeX = slopeY * aspect;
+  fitCamera(camera, points, slopeY * aspect, slopeY);
+  setDepthRange(camera, camera.position.distanceTo(new Vector3().fromArray(points)));
+  return camera;
+}
+
+/** Moves a camera, turned as it is, to the nearest place from which all points lie within these slopes of its axis. */
+export function fitCamera(camera: PerspectiveCamera, points: Float32Array, slopeX: number, slopeY: number): void {
+  const toView = new Matrix4().extractRotation(camera.matrixWorld).invert();
   // The body fits between two slanted planes per axis; each pair meets in the eye.
   const reach = { left: -Infinity, right: -Infinity, up: -Infinity, down: -Infinity };
   const p = new Vector3();
@@ -53,6 +59,4 @@ export function frameCamera(points: Float32Array, view: View, aspect: number): P
   const inView = new Vector3((reach.right - reach.left) / 2, (reach.up - reach.down) / 2, distance);
   camera.position.copy(inView.applyMatrix4(toView.invert()));
   camera.updateMatrixWorld();
-  setDepthRange(camera, camera.position.distanceTo(p.fromArray(points)));
-  return camera;
 }

@@ -5,10 +5,10 @@ import type { Status } from './protocol.ts';
 
 const accent = '#66d9c6', second = '#f2c14e', third = '#8aa8ff', fourth = '#f08a8a';
 
-/** The step beside the bound below which every step is stable, as the body is strained now. */
+/** The step beside the bound below which every step is surely stable, as the body is strained now. */
 export function describeMargin({ used, live_bound }: Status['time_step']): string {
   const share = used / live_bound;
-  return `${(100 * share).toFixed(0)} %, ${share <= 1 ? 'surely stable' : 'stable so far'}`;
+  return `${(100 * share).toFixed(0)} %`;
 }
 
 export function describeState(status: Status): string {
@@ -39,7 +39,7 @@ export class FigurePanel {
   show(status: Status, frameMs: number): void {
     this.fact('Steps per second', Math.round(status.step_rate).toLocaleString('en'));
     this.fact('Step', `${(1000 * status.time_step.used).toFixed(3)} ms`);
-    this.fact('Of the bound now', describeMargin(status.time_step));
+    this.fact('Step, of its sure bound', describeMargin(status.time_step));
     this.fact('Elements cut', status.cut_elements.toLocaleString('en'));
     this.fact('Stretch', `${status.strain.stretch_min.toFixed(2)} to ${status.strain.stretch_max.toFixed(2)}`);
     const pieces = status.pieces.slice(0, 3).map((one) => `${(1e6 * one.volume).toFixed(0)}`);

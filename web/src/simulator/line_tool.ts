@@ -50,7 +50,7 @@ export class LineTool implements Tool {
     const edge = this.way.shift();
     if (!edge) return;
     this.room.connection.send({ command: { move_blade: { blade: 0, heel: arrayOf(edge.heel), tip: arrayOf(edge.tip) } } });
-    this.trace.add(edge, edge.heel);
+    this.trace.add(edge);
     if (this.way.length > 0) return;
     this.room.connection.send({ command: { lift_blade: { blade: 0, complete: false } } });
     this.trace.endLine();

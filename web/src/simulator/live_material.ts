@@ -33,6 +33,20 @@ else if (livePaint == 2) diffuseColor.rgb = pieceColour(livePiece);
 else if (!gl_FrontFacing) diffuseColor.rgb = mix(fleshColour, fleshSpot, 0.5);
 `;
 
+/** The engine's normals are smooth all over the skin; where the body has an edge, as a block has, the face's own is taken. */
+const edges = /* glsl */ `#include <normal_fragment_begin>
+{
+  vec3 ofFace = normalize(cross(dFdx(vViewPosition), dFdy(vViewPosition)));
+  normal = normalize(mix(ofFace, normal, smoothstep(0.75, 0.92, dot(ofFace, normal))));
+  nonPerturbedNormal = normal;
+}`;
+
+/** Flesh lets light through: however narrow, a wound is red inside, not black. */
+const wound = /* glsl */ `
+outgoingLight += tissueInside * (livePaint == 0 ? 1.0 : 0.3) * vec3(0.075, 0.013, 0.010);
+if (!gl_FrontFacing && livePaint == 0) outgoingLight = 0.55 * diffuseColor.rgb;
+#include <opaque_fragment>`;
+
 export interface LiveMaterial {
   material: MeshPhysicalMaterial;
   setPaint(paint: Paint): void;
@@ -57,7 +71,9 @@ export function createLiveMaterial(sky: SkyShadow): LiveMaterial {
       .replace('#include <begin_vertex>', '#include <begin_vertex>\nliveStress = stress;\nlivePiece = piece;');
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', '#include <common>\n' + declarations)
-      .replace('diffuseColor.rgb = mix(skin, flesh, tissueInside);', 'diffuseColor.rgb = mix(skin, flesh, tissueInside);' + paint);
+      .replace('diffuseColor.rgb = mix(skin, flesh, tissueInside);', 'diffuseColor.rgb = mix(skin, flesh, tissueInside);' + paint)
+      .replace('#include <normal_fragment_begin>', edges)
+      .replace('#include <opaque_fragment>', wound);
   });
   const paints: Paint[] = ['tissue', 'stress', 'pieces'];
   return {

@@ -112,9 +112,10 @@ export class StrokeTrace {
     this.last = undefined;
   }
 
-  add(edge: Edge, onSkin: Vector3): void {
-    this.line.add(onSkin);
-    this.line.draw(Math.max(0, this.line.points - 60), 60);
+  /** `onSkin` is where the line goes on. */
+  add(edge: Edge, onSkin?: Vector3): void {
+    if (onSkin) this.line.add(onSkin);
+    this.line.draw(0, this.line.points);
     if (this.last) {
       const { heel, tip } = this.last;
       this.sheet.add(heel, tip, edge.tip, heel, edge.tip, edge.heel);

@@ -32,7 +32,8 @@ const toolFaces: { name: ToolName; label: string; cursor: string }[] = [
 /** Steps down from fine to fast, taken while frames come slower than this, ms. */
 const qualities: [Quality, number][] = [['high', 1], ['low', 1], ['low', 0.75], ['low', 0.5]];
 const slowFrame = 45;
-const framesJudged = 12;
+/** Judged after so many frames, or so long, ms. */
+const framesJudged = 12, longJudged = 900;
 const slowMotion = 0.2;
 
 /** The view's own hand: nothing is the tool's. */
@@ -61,6 +62,7 @@ class Simulator {
   private readonly film = new Film();
   private isDirty = true;
   private isNewScene = true;
+  private isOtherBody = true;
   private frameMs = 16;
   private lastDraw = 0;
   private qualityAt = 0;
@@ -71,7 +73,7 @@ class Simulator {
 
   constructor() {
     const canvas = byId<HTMLCanvasElement>('view');
-    this.stage = new Stage(canvas, this.body.geometry);
+    this.stage = new Stage(canvas, this.body.geometry, [48, 24]);
     this.connection = new Connection(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`, {
       opened: () => this.hideCurtain(),
       closed: () => this.showCurtain('The engine has stopped. Start it again with ./run; this page goes on by itself.'),
@@ -156,7 +158,8 @@ class Simulator {
     if (frame.stress) this.views.updateRange(this.body);
     if (frame.node) this.elements.apply(frame.node, frame.element);
     if (this.isNewScene) this.stage.lookAround();
-    this.isNewScene = false;
+    if (this.isOtherBody) this.frameBody();
+    this.isNewScene = this.isOtherBody = false;
     this.frame = { frame: frame.frame, message: frame.message, step: frame.step, vertices: frame.vertices, triangles: frame.triangles, revision: frame.revision };
     this.noteLatency(frame.message);
     this.isDirty = true;
@@ -190,10 +193,10 @@ class Simulator {
   }
 
   private showScene(scene: SceneFacts): void {
-    const isOther = this.scene?.name !== scene.name;
+    this.isOtherBody = this.scene?.name !== scene.name;
     this.scene = scene;
     this.isNewScene = true;
-    if (isOther) this.stage.surround(new Vector3(...scene.lo), new Vector3(...scene.hi));
+    if (this.isOtherBody) this.stage.surround(new Vector3(...scene.lo), new Vector3(...scene.hi));
     this.tissueOptions.showScene(scene);
     for (const tool of Object.values(this.tools)) tool.forget?.();
     for (const button of byId('scene-list').querySelectorAll('button')) button.setAttribute('aria-current', String(button.dataset.scene === scene.name));
@@ -230,6 +233,10 @@ class Simulator {
     this.isDirty = true;
     const stress = this.views?.current === 'Stress' || this.tool === 'probe';
     this.send({ show: { stress, elements: this.views?.current === 'Elements' } });
+  }
+
+  private frameBody(): void {
+    this.stage.frame(this.body.position.values.subarray(0, 3 * this.body.vertices));
   }
 
   private undo(): void {
@@ -302,7 +309,7 @@ class Simulator {
     if (action) action.run();
     else if (tool) this.takeTool(tool.name);
     else if (key === 'v') this.views.next();
-    else if (key === 'f') this.stage.frame();
+    else if (key === 'f') this.frameBody();
     else if (key === 'p') this.togglePin();
     else return;
     event.preventDefault();
@@ -380,8 +387,9 @@ class Simulator {
 
   private judge(interval: number): void {
     this.judged.push(interval);
-    if (this.judged.length < framesJudged) return;
-    const middle = this.judged.sort((a, b) => a - b)[framesJudged >> 1];
+    const passed = this.judged.reduce((sum, one) => sum + one, 0);
+    if (this.judged.length < framesJudged && passed < longJudged) return;
+    const middle = this.judged.sort((a, b) => a - b)[this.judged.length >> 1];
     this.judged = [];
     if (middle < slowFrame || this.qualityAt + 1 >= qualities.length || document.hidden) return;
     this.stage.setQuality(...qualities[++this.qualityAt]);

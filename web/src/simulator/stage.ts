@@ -4,6 +4,7 @@ import {
   Sphere, Vector2, Vector3, WebGLRenderer, type BufferGeometry, type Plane,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { fitCamera } from '../camera.ts';
 import { createEnvironment } from '../environment.ts';
 import { createSkyShadow, shadeBySky, type SkyShadow } from '../sky_shadow.ts';
 import { createLiveMaterial, type LiveMaterial } from './live_material.ts';
@@ -13,6 +14,8 @@ const drape = new Color(0x22535a);
 const skyLayout = { side: 4, size: 320 };
 /** From the body towards the lamp. */
 const lampDirection = new Vector3(-0.55, -0.75, 1.25).normalize();
+/** Pixels of the canvas that panels cover. */
+const panelsWide = 480, panelsHigh = 170;
 const eyeDirection = new Vector3(0.3, -1, 0.42).normalize();
 
 /** Draws well, or fast: where a processor draws in place of a graphics card. */
@@ -34,8 +37,11 @@ export class Stage {
   private tile = 0;
   private quality: Quality = 'high';
   private scale = 1;
+  /** Pixels from the canvas's middle to that of the room that panels leave. */
+  private readonly aside: [number, number];
 
-  constructor(canvas: HTMLCanvasElement, geometry: BufferGeometry) {
+  constructor(canvas: HTMLCanvasElement, geometry: BufferGeometry, aside: [number, number]) {
+    this.aside = aside;
     this.renderer = createRenderer(canvas);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
@@ -73,16 +79,20 @@ export class Stage {
     this.floor.scale.setScalar(30 * radius);
     this.camera.near = 0.02 * radius;
     this.camera.far = 60 * radius;
-    this.frame();
+    this.camera.updateProjectionMatrix();
   }
 
-  /** Looks at the whole body. */
-  frame(): void {
-    const { center, radius } = this.bounds;
-    const slope = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
-    this.camera.position.copy(center).addScaledVector(eyeDirection, (0.98 * radius) / slope);
-    this.controls.target.copy(center);
-    this.camera.updateProjectionMatrix();
+  /** Looks at the whole body, in the room that the panels leave. */
+  frame(points: Float32Array): void {
+    const { clientWidth: width, clientHeight: height } = this.renderer.domElement;
+    const slope = Math.tan((this.camera.fov * Math.PI) / 360);
+    this.camera.position.copy(eyeDirection);
+    this.camera.lookAt(0, 0, 0);
+    this.camera.updateMatrixWorld();
+    const free = Math.max(width - panelsWide, 0.5 * width) / height;
+    fitCamera(this.camera, points, 0.9 * slope * free, slope * (1 - panelsHigh / height));
+    const away = this.camera.position.distanceTo(this.bounds.center);
+    this.controls.target.copy(this.camera.getWorldDirection(new Vector3())).multiplyScalar(away).add(this.camera.position);
     this.controls.update();
   }
 
@@ -90,7 +100,7 @@ export class Stage {
     this.renderer.setPixelRatio(this.scale * (this.quality === 'high' ? Math.min(window.devicePixelRatio, 2) : 1));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / Math.max(height, 1);
-    this.camera.updateProjectionMatrix();
+    this.camera.setViewOffset(width, height, this.aside[0], this.aside[1], width, height);
   }
 
   /** `scale` of the pixels, for slow machines. */
