@@ -90,13 +90,14 @@ struct Listener {
     NetworkOptions options;
     Pages pages;
     Inbox& inbox;
-    asio::io_context io = asio::io_context(1);
-    tcp::acceptor acceptor = tcp::acceptor(io);
-    asio::signal_set signals = asio::signal_set(io);
     std::map<ClientId, std::weak_ptr<WebSocketSession>> clients = {};
     ClientId last_client = 0;
     std::size_t connections = 0;
     ClientId uploader = 0; // the one client that may send much at once now; 0: nobody does
+    // Last: sessions end with it, and sign off above.
+    asio::io_context io = asio::io_context(1);
+    tcp::acceptor acceptor = tcp::acceptor(io);
+    asio::signal_set signals = asio::signal_set(io);
 };
 
 /// One page: a WebSocket after its handshake. Lives as long as a read or a write of it is under way.

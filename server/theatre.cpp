@@ -116,6 +116,12 @@ void Theatre::answer(ClientId client, Index id, const Request& request) {
 }
 
 void Theatre::tell(ClientId client, Index id, const Command& command) {
+    // A blade's last way would be lost with it; so also what is cut while paused.
+    const bool is_lift = std::holds_alternative<LiftBlade>(command);
+    if (is_lift && blade_is_on_its_way_ && !figures_.diverged) {
+        advance(scene_->simulation().time_step().used);
+    }
+    blade_is_on_its_way_ = std::holds_alternative<MoveBlade>(command) || (blade_is_on_its_way_ && !is_lift);
     const Result<void> applied = scene_->apply(command);
     if (!applied) {
         refuse(client, id, applied.error().message);
@@ -171,6 +177,7 @@ void Theatre::refuse(ClientId client, Index id, const std::string& message) {
 void Theatre::advance(double seconds) {
     Simulation& simulation = scene_->simulation();
     const double step = simulation.time_step().used;
+    blade_is_on_its_way_ = false;
     const Clock::time_point began = Clock::now();
     const StepReport report = simulation.advance(std::max(seconds, step));
     const double cut = report.cut.us.total();

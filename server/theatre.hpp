@@ -52,7 +52,8 @@ private:
     Clock::time_point last_status_ = {};
     double time_at_status_ = 0;
     std::int64_t step_at_status_ = 0;
-    bool has_news_ = false; // for a status while paused
+    bool blade_is_on_its_way_ = false; // told where to go since the last advance
+    bool has_news_ = false;            // for a status while paused
 };
 
 } // namespace server
