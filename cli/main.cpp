@@ -76,6 +76,7 @@ void add_serve(CLI::App& app, cli::ServeOptions& options, int& status) {
     command->add_option("--threads", options.threads, "threads; 0: half of the cores")
         ->check(CLI::Range(0, 256));
     command->add_option("--out", options.out, "folder for records, surfaces and uploads");
+    command->add_flag("--open", options.open, "open the page, where there is a screen");
     add_isa(*command, options.isa);
     command->callback([&] { status = cli::serve(options); });
 }

@@ -39,6 +39,7 @@ struct ServeOptions {
     int threads = 0; // 0: half of the cores
     std::string isa = {};
     std::string out = "out";
+    bool open = false; // a browser, where there is a screen
 };
 
 struct MeshOptions {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <thread>
@@ -17,6 +18,13 @@ namespace fs = std::filesystem;
 
 /// Half of the cores: the page and the network want theirs.
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2); }
+
+void open_browser(const std::string& address) {
+    if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) { return; }
+    // Where there is no xdg-open, the address has been printed.
+    [[maybe_unused]] const int status =
+        std::system(fmt::format("xdg-open {} >/dev/null 2>&1 &", address).c_str());
+}
 
 server::TheatreOptions theatre_options(const ServeOptions& options) {
     const fs::path scene = fs::absolute(options.scene);
@@ -49,9 +57,11 @@ int serve(const ServeOptions& options) {
         .pages = pages.string(),
     };
     const resect::Result<void> served = server::serve(told, [&](int port) {
-        fmt::print("Open http://{}:{}/ and cut; Ctrl-C ends it.\n",
-                   options.address == "127.0.0.1" ? "localhost" : options.address, port);
+        const std::string address = fmt::format(
+            "http://{}:{}/", options.address == "127.0.0.1" ? "localhost" : options.address, port);
+        fmt::print("Open {} and cut; Ctrl-C ends it.\n", address);
         std::fflush(stdout);
+        if (options.open) { open_browser(address); }
     });
     return served ? done : refuse(served.error().message);
 }

@@ -118,9 +118,7 @@ void Theatre::answer(ClientId client, Index id, const Request& request) {
 void Theatre::tell(ClientId client, Index id, const Command& command) {
     // A blade's last way would be lost with it; so also what is cut while paused.
     const bool is_lift = std::holds_alternative<LiftBlade>(command);
-    if (is_lift && blade_is_on_its_way_ && !figures_.diverged) {
-        advance(scene_->simulation().time_step().used);
-    }
+    if (is_lift && blade_is_on_its_way_ && !figures_.diverged) { take_step(); }
     blade_is_on_its_way_ = std::holds_alternative<MoveBlade>(command) || (blade_is_on_its_way_ && !is_lift);
     const Result<void> applied = scene_->apply(command);
     if (!applied) {
@@ -194,9 +192,17 @@ void Theatre::advance(double seconds) {
 
 void Theatre::take_steps(Index steps) {
     if (!paused_) { return; }
-    const double step = scene_->simulation().time_step().used;
     for (Index i = 0; i < steps && !figures_.diverged; ++i) {
-        advance(step);
+        take_step();
+    }
+}
+
+/// Exactly one: what is carried over from ticks may make a first advance one of none.
+void Theatre::take_step() {
+    const Simulation& simulation = scene_->simulation();
+    const std::int64_t before = simulation.steps();
+    while (simulation.steps() == before && !figures_.diverged) {
+        advance(simulation.time_step().used);
     }
 }
 

@@ -36,6 +36,7 @@ private:
     void refuse(ClientId client, Index id, const std::string& message);
     void advance(double seconds);
     void take_steps(Index steps);
+    void take_step();
     bool is_running() const { return !paused_ && !figures_.diverged; }
     void publish(Clock::time_point now);
 

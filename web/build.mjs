@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bundles the picture page into one HTML file and the simulator into a folder, or, with --tests, each test into one file
 // that Node can run.
-import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
+import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
 
@@ -24,13 +24,14 @@ async function buildPicture() {
 async function buildSimulator() {
   const source = join(here, 'src/simulator'), out = join(dist, 'simulator');
   rmSync(out, { recursive: true, force: true });
+  const thumbnails = join(here, 'thumbnails');
   await build({
+    define: { SCENES_WITH_PICTURES: JSON.stringify(readdirSync(thumbnails).map((name) => basename(name, '.png'))) },
     entryPoints: [join(source, 'simulator.ts'), join(source, 'simulator.css')],
     bundle: true, minify: true, format: 'iife', target: 'es2022', legalComments: 'inline', outdir: out, logLevel: 'warning',
   });
   cpSync(join(source, 'simulator.html'), join(out, 'index.html'));
-  const thumbnails = join(here, 'thumbnails');
-  if (existsSync(thumbnails)) cpSync(thumbnails, join(out, 'thumbnails'), { recursive: true });
+  cpSync(thumbnails, join(out, 'thumbnails'), { recursive: true });
 }
 
 async function buildTests() {

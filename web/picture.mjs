@@ -4,6 +4,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { writeFile } from 'node:fs/promises';
 import { basename, dirname, extname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import { chromiumFlags } from './chromium_flags.mjs';
 import { parseOptions } from './picture_options.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -11,11 +12,6 @@ const page = join(here, 'dist/picture.html');
 
 /** A busy machine may take a minute where an idle one takes a second. */
 const patience = 120_000;
-
-const chromiumFlags = [
-  '--no-sandbox', '--use-angle=gl-egl', '--ignore-gpu-blocklist', '--disable-quic', '--no-first-run',
-  '--disable-background-networking', '--disable-component-update', '--disable-sync',
-];
 
 /** @param {string} path */
 function readSurfaceFile(path) {

@@ -80,6 +80,15 @@ TEST_CASE("what a page did is saved, and replays to the same hash") {
     CHECK(page.read_until("scene")["elements"] == 5832);
     const std::string before = ask_hash(page, 1);
     page.send_text(R"({"id":2,"pause":true})");
+    const std::int64_t paused_at = page.read_until("status")["step"];
+    for (int i = 1; i <= 5; ++i) {
+        page.send_text(Json{{"id", 2 + i}, {"step", i}}.dump());
+    }
+    std::int64_t step = paused_at;
+    while (step < paused_at + 15 && page.is_open()) {
+        step = page.read_until("status")["step"];
+    }
+    CHECK(step == paused_at + 15);
     cut_through(page);
     CHECK(page.wait_for_pieces(2)); // while paused, too
     page.send_text(R"({"id":3,"pause":false})");

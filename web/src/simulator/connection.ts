@@ -16,6 +16,8 @@ const retryAfter = 1000;
 export class Connection {
   private socket: WebSocket | undefined;
   private lastId = 0;
+  /** Messages whose effect no frame has shown yet. */
+  private readonly sentAt = new Map<number, number>();
   private readonly url: string;
   private readonly listener: Listener;
 
@@ -29,15 +31,22 @@ export class Connection {
     return this.socket?.readyState === WebSocket.OPEN;
   }
 
-  /** The id that was given out last. */
-  get lastSent(): number {
-    return this.lastId;
+  /** Milliseconds from sending each message up to `last` until now; each is answered once. */
+  takeLatencies(last: number): number[] {
+    const now = performance.now(), taken: number[] = [];
+    for (const [id, at] of this.sentAt) {
+      if (id > last) break;
+      taken.push(now - at);
+      this.sentAt.delete(id);
+    }
+    return taken;
   }
 
   /** Answers the id; 0 where the engine is not there. */
   send(request: Request): number {
     if (!this.isOpen) return 0;
     this.socket?.send(JSON.stringify({ id: ++this.lastId, ...request }));
+    this.sentAt.set(this.lastId, performance.now());
     return this.lastId;
   }
 

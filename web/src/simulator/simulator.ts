@@ -68,7 +68,6 @@ class Simulator {
   private qualityAt = 0;
   private judged: number[] = [];
   private handled = 0;
-  private readonly sent = new Map<number, number>();
   private readonly hashes = new Map<number, (hash: string) => void>();
 
   constructor() {
@@ -167,24 +166,17 @@ class Simulator {
   }
 
   private noteLatency(message: number): void {
-    for (const [id, at] of this.sent) {
-      if (id > message) break;
-      this.latency.push(performance.now() - at);
-      this.sent.delete(id);
-    }
+    this.latency.push(...this.connection.takeLatencies(message));
     if (this.latency.length > 1000) this.latency.splice(0, this.latency.length - 1000);
   }
 
   private showScenes(scenes: SceneEntry[]): void {
     byId('scene-list').replaceChildren(...scenes.map(({ name, title, description }) => {
-      const button = make('button'), picture = make('img');
+      const button = make('button');
       button.type = 'button';
       button.title = description.split('. ')[0];
       button.dataset.scene = name;
-      picture.src = `thumbnails/${name}.webp`;
-      picture.alt = '';
-      picture.addEventListener('error', () => picture.replaceWith(make('div', '', 'blank')));
-      button.append(picture, make('span', title));
+      button.append(pictureOf(name), make('span', title));
       button.addEventListener('click', () => this.send({ scene: name }));
       const row = make('li');
       row.append(button);
@@ -299,7 +291,8 @@ class Simulator {
   private pressKey(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
     if (target.closest('dialog, input:not([type="range"]), textarea')) return;
-    if (event.key === ' ' && target.closest('button, summary')) return;
+    // A button reached by keys is pressed by Space; one that was clicked is not meant any more.
+    if (event.key === ' ' && target.closest('button, summary')?.matches(':focus-visible')) return;
     const key = event.key.toLowerCase();
     const isUndo = key === 'z' && (event.ctrlKey || event.metaKey);
     if (!isUndo && (event.ctrlKey || event.metaKey || event.altKey)) return;
@@ -357,6 +350,7 @@ class Simulator {
   private closeHint(): void {
     byId('hint').hidden = true;
     localStorage.setItem('resect-hint', 'seen');
+    byId('view').focus();
   }
 
   private showCurtain(words: string): void {
@@ -398,10 +392,8 @@ class Simulator {
   private draw(now: number): void {
     requestAnimationFrame((next) => this.draw(next));
     const began = performance.now();
-    const before = this.connection.lastSent;
     if (this.pointer.tick()) this.isDirty = true;
     this.tools[this.tool].tick?.();
-    for (let id = before + 1; id <= this.connection.lastSent; ++id) this.sent.set(id, began);
     if (!this.isDirty) {
       this.lastDraw = 0;
       return;
@@ -427,6 +419,17 @@ function barButton(id: string, face: string, label: string, words: string): HTML
   button.setAttribute('aria-label', words);
   button.append(icon(face as Icon), make('span', label));
   return button;
+}
+
+/** Set when the page is built, so that none is asked for in vain. */
+declare const SCENES_WITH_PICTURES: string[];
+
+function pictureOf(scene: string): HTMLElement {
+  if (!SCENES_WITH_PICTURES.includes(scene)) return make('div', '', 'blank');
+  const picture = make('img');
+  picture.src = `thumbnails/${scene}.png`;
+  picture.alt = '';
+  return picture;
 }
 
 function setPressed(action: string, on: boolean): void {
@@ -460,6 +463,7 @@ function open(simulator: Simulator): object {
     get latency() { return simulator.latency; },
     screenOf: (point: [number, number, number]) => simulator.stage.screenOf(new Vector3(...point)),
     pick: (x: number, y: number) => simulator.pick(x, y),
+    vertex: (row: number) => [...simulator.body.position.values.subarray(3 * row, 3 * row + 3)],
     send: (request: Request) => simulator.send(request),
     hash: () => simulator.askHash(),
   };
