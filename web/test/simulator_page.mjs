@@ -1,53 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // The simulator in a real browser, with a real mouse: simulator_page.mjs RESECT SCENES OUT. Leaves pictures in OUT.
 import assert from 'node:assert/strict';
-import { spawn, spawnSync } from 'node:child_process';
+import { spawnSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { chromium } from 'playwright-core';
-import { chromiumFlags } from '../chromium_flags.mjs';
+import { ask, drag, openBrowser, startEngine, stopEngine, until } from '../drive.mjs';
 
 const [program, scenes, out] = process.argv.slice(2);
 mkdirSync(out, { recursive: true });
-const patience = 15_000;
-
+const patience = 60_000;
 /** @param {number} port */
-function startEngine(port) {
-  const engine = spawn(program, ['serve', join(scenes, 'liver.json'), '--port', String(port), '--out', out, '--threads', '1'], { stdio: ['ignore', 'pipe', 'inherit'] });
-  return new Promise((resolve, reject) => {
-    engine.on('exit', () => reject(new Error('the engine has ended')));
-    engine.stdout.on('data', (text) => {
-      const said = /http:\/\/localhost:(\d+)\//.exec(String(text));
-      if (said) resolve({ engine, port: Number(said[1]) });
-    });
-  });
-}
-
-/** Runs in the page. @type {(page: import('playwright-core').Page, read: string) => Promise<any>} */
-const ask = (page, read) => page.evaluate(`(async () => (${read}))()`);
-
-/** Asked from outside: the page's own policy forbids it to evaluate texts. @param {import('playwright-core').Page} page @param {string} condition */
-async function until(page, condition) {
-  const end = Date.now() + patience;
-  while (!(await ask(page, condition))) {
-    if (Date.now() > end) assert.fail(`never came true: ${condition}; ${await ask(page, 'JSON.stringify([resect.status, resect.scene?.name])')}`);
-    await page.waitForTimeout(50);
-  }
-}
-
-/** @param {import('playwright-core').Page} page @param {number[]} from @param {number[]} to */
-async function drag(page, from, to, steps = 12) {
-  await page.mouse.move(from[0], from[1]);
-  await page.mouse.down();
-  for (let i = 1; i <= steps; ++i) {
-    await page.mouse.move(from[0] + ((to[0] - from[0]) * i) / steps, from[1] + ((to[1] - from[1]) * i) / steps);
-    await page.waitForTimeout(40);
-  }
-  await page.mouse.up();
-}
+const start = (port) => startEngine(program, [join(scenes, 'liver.json'), '--port', String(port), '--out', out, '--threads', '1']);
 
 /** @param {number[]} values */
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
+
+/** @param {import('playwright-core').Page} page @param {number[]} from @param {number[]} to */
+async function stroke(page, from, to) {
+  await drag(page, from, to);
+  await page.mouse.up();
+}
 
 /** @param {import('playwright-core').Page} page */
 async function cutGraspAndUndo(page) {
@@ -55,7 +27,7 @@ async function cutGraspAndUndo(page) {
   await page.keyboard.press('Space');
   await until(page, 'resect.status.paused');
   const before = await ask(page, 'resect.hash()');
-  await drag(page, [540, 240], [620, 420]);
+  await stroke(page, [540, 240], [620, 420]);
   await until(page, 'resect.status.strokes === 1 && resect.status.cut_elements > 20');
   assert.notEqual(await ask(page, 'resect.hash()'), before, 'a drag cuts');
   await page.keyboard.press('Control+z');
@@ -63,7 +35,7 @@ async function cutGraspAndUndo(page) {
   assert.equal(await ask(page, 'resect.hash()'), before, 'undo restores the hash');
 
   await page.keyboard.press('Space');
-  await drag(page, [540, 240], [620, 420]);
+  await stroke(page, [540, 240], [620, 420]);
   await page.waitForTimeout(500);
   await page.screenshot({ path: join(out, 'page_cut.png') });
   await page.keyboard.press('3');
@@ -72,7 +44,7 @@ async function cutGraspAndUndo(page) {
   const hit = await ask(page, `resect.pick(${lip})`);
   assert.ok(hit, 'there is tissue beside the cut');
   const at = await ask(page, `resect.vertex(${hit.vertex})`);
-  await drag(page, lip, [lip[0] + 70, lip[1] - 30]);
+  await stroke(page, lip, [lip[0] + 70, lip[1] - 30]);
   await page.waitForTimeout(700);
   const now = await ask(page, `resect.vertex(${hit.vertex})`);
   assert.ok(Math.hypot(now[0] - at[0], now[1] - at[1], now[2] - at[2]) > 0.004, 'the lip is pulled open');
@@ -130,8 +102,8 @@ async function measure(page, address) {
   assert.ok(latency.length > 100);
 }
 
-const first = await startEngine(0);
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: chromiumFlags });
+const first = await start(0);
+const browser = await openBrowser();
 let { engine } = first;
 try {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, acceptDownloads: true });
@@ -148,16 +120,14 @@ try {
   await changeScenes(page);
   assert.deepEqual(complaints, [], 'no error in the console');
 
-  engine.removeAllListeners('exit');
-  engine.kill('SIGKILL');
+  stopEngine(engine);
   await page.waitForSelector('#curtain:not([hidden])', { timeout: patience });
   await page.screenshot({ path: join(out, 'page_engine_gone.png') });
-  ({ engine } = await startEngine(first.port));
+  ({ engine } = await start(first.port));
   await until(page, 'document.getElementById("curtain").hidden && resect.ready && resect.scene.name === "liver"');
   await measure(page, address);
   console.log('the page works');
 } finally {
-  engine.removeAllListeners('exit');
-  engine.kill();
+  stopEngine(engine);
   await browser.close();
 }
