@@ -19,8 +19,9 @@ constexpr Index most_crowded = 2;
 /// docs/cutting.md, "Shallow cuts").
 constexpr double soft_reach = 1.7;
 /// Travel after which marks and crossings expire, in grains: a stroke that comes back to its own cut crosses
-/// it as it would another's.
-constexpr double lifetime = 3;
+/// it as it would another's. In long thin tets it is their longest edge, or a face of one would be forgotten
+/// at one end before the blade has come to the other.
+constexpr double lifetime = 3, lifetime_in_edges = 1.05;
 /// How far from the blade material is refined, in grains.
 constexpr double refine_ahead = 0.75;
 double snap_distance(const MaterialMesh& material, Index vertex) {
@@ -168,18 +169,40 @@ double mean_grain(const MaterialMesh& material, const MaterialEdge& edge) {
     return 0.5 * (material.grain[row(edge.u)] + material.grain[row(edge.w)]);
 }
 
+double find_longest_edge(const MaterialMesh& material, std::span<const Index> tets) {
+    double longest = 0;
+    for (const Index m : tets) {
+        const Tet& vertex = material.tet(m).vertex;
+        for (const auto& [a, b] : edge_corners) {
+            const Vec3 edge = material.rest[row(vertex[row(a)])] - material.rest[row(vertex[row(b)])];
+            longest = std::max(longest, dot(edge, edge));
+        }
+    }
+    return std::sqrt(longest);
+}
+
+/// The travel at which what is noted now about `tets` expires, m.
+double find_expiry(const Cutter& cutter, const Blade& blade, double grain, std::span<const Index> tets) {
+    const double longest = find_longest_edge(cutter.material, tets);
+    return blade.travel + blade.step + std::max(lifetime * grain, lifetime_in_edges * longest);
+}
+
 /// Puts a vertex on the sheet, or notes that the blade has passed it again.
 void mark_zero(Cutter& cutter, Blade& blade, Index vertex, const Vec3& normal) {
     const bool was_zero = is_zero(blade, vertex);
     SheetMark& mark = blade.sheet.edit(row(vertex));
-    mark.expires = blade.travel + blade.step + lifetime * cutter.material.grain[row(vertex)];
-    if (was_zero) { return; }
+    const double grain = cutter.material.grain[row(vertex)];
+    if (was_zero) {
+        mark.expires = std::max(mark.expires, find_expiry(cutter, blade, grain, {}));
+        return;
+    }
     mark.stroke = blade.stroke;
     mark.normal = normal;
     Scratch& scratch = cutter.scratch;
     scratch.star.clear();
     scratch.walked.clear(cutter.material.tets.size());
     walk_star(cutter.material, vertex, cutter.material.any_tet[row(vertex)], scratch.walked, scratch.star);
+    mark.expires = find_expiry(cutter, blade, grain, scratch.star);
     for (const Index m : scratch.star) {
         queue_tet(cutter, m);
     }
@@ -231,7 +254,7 @@ void record_crossing(Cutter& cutter, Blade& blade, const Sweep& sweep, const Scr
                       {.t = std::clamp(event.t, margin, 1 - margin),
                        .height = event.height,
                        .is_soft = is_soft,
-                       .expires = blade.travel + blade.step + lifetime * grain,
+                       .expires = find_expiry(cutter, blade, grain, ring),
                        .normal = normal});
     for (const Index m : ring) {
         queue_tet(cutter, m);
