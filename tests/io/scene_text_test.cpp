@@ -52,12 +52,17 @@ std::vector<json> example_scenes() {
     for (const auto& [kind, source] : mesh.items()) {
         json scene = full;
         scene["tissue"]["mesh"] = {{kind, source}};
-        if (kind != "file") { scene["tissue"].erase("initial"); }
-        if (kind == "liver") {
-            scene["tissue"]["mesh"]["liver"].erase("spacing");
+        json& initial = scene["tissue"]["initial"];
+        if (kind == "file") {
+            initial.erase("stretch");
+        } else {
+            initial = {{"stretch", initial["stretch"]}};
+        }
+        if (kind == "liver" || kind == "kidney") {
+            scene["tissue"]["mesh"][kind].erase("spacing");
             scenes.push_back(scene);
-            scene["tissue"]["mesh"]["liver"] = source;
-            scene["tissue"]["mesh"]["liver"].erase("elements");
+            scene["tissue"]["mesh"][kind] = source;
+            scene["tissue"]["mesh"][kind].erase("elements");
         }
         scenes.push_back(scene);
     }
@@ -72,11 +77,12 @@ json mesh_back(const SceneDescription& scene) {
                   {"cells", block->cells},
                   {"split", block->split == Split::bcc ? "bcc" : "six"}}}};
     }
-    const Lattice& lattice = std::get<LiverSource>(scene.mesh).lattice;
-    json liver = {{"refine", lattice.refine}};
-    if (lattice.elements != 0) { liver["elements"] = lattice.elements; }
-    if (lattice.spacing != 0) { liver["spacing"] = lattice.spacing; }
-    return {{"liver", liver}};
+    const auto* kidney = std::get_if<KidneySource>(&scene.mesh);
+    const Lattice& lattice = kidney != nullptr ? kidney->lattice : std::get<LiverSource>(scene.mesh).lattice;
+    json made = {{"refine", lattice.refine}};
+    if (lattice.elements != 0) { made["elements"] = lattice.elements; }
+    if (lattice.spacing != 0) { made["spacing"] = lattice.spacing; }
+    return {{kidney != nullptr ? "kidney" : "liver", made}};
 }
 
 json tissue_back(const SceneDescription& scene) {
@@ -100,6 +106,8 @@ json tissue_back(const SceneDescription& scene) {
     if (std::holds_alternative<FileSource>(scene.mesh)) {
         tissue["initial"] = {{"displacement", scene.initial_displacement},
                              {"velocity", scene.initial_velocity}};
+    } else {
+        tissue["initial"] = {{"stretch", scene.initial_stretch}};
     }
     return tissue;
 }
@@ -154,7 +162,7 @@ int check_documented(const json& schema, const std::string& path) {
 
 TEST_CASE("every key of the schema reaches the scene, and comes back as it was") {
     const std::vector<json> scenes = example_scenes();
-    REQUIRE(scenes.size() == 4);
+    REQUIRE(scenes.size() == 6);
     for (const json& scene : scenes) {
         CHECK(back(parsed(scene.dump())) == scene);
     }
@@ -265,7 +273,7 @@ TEST_CASE("a wrong type, range or size is refused with its path and what would b
 
 TEST_CASE("a choice is made once") {
     CHECK(message_of(R"({"tissue": {"mesh": {}}})") ==
-          "s.json: tissue.mesh: holds none of block, file and liver; give exactly one");
+          "s.json: tissue.mesh: holds none of block, file, kidney and liver; give exactly one");
     CHECK(message_of(least, {"tissue.mesh.file=a.vtu"}).find("holds several") != std::string::npos);
     CHECK(message_of(R"({"tissue": {"mesh": {"liver": {}}}})").find("none of elements and spacing") !=
           std::string::npos);
