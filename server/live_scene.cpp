@@ -48,6 +48,17 @@ Result<void> write_bytes(const std::string& path, const std::string& bytes) {
     return Error{fmt::format("{}: cannot be written ({})", path, std::strerror(errno))};
 }
 
+/// A new one for each upload, since records name the bodies of earlier ones.
+Result<std::string> make_upload_folder(const std::string& folder) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    for (int i = 1; !failed; ++i) {
+        std::string made = fmt::format("{}/upload_{}", folder, i);
+        if (std::filesystem::create_directory(made, failed)) { return made; }
+    }
+    return Error{fmt::format("{}: no folder can be made there ({})", folder, failed.message())};
+}
+
 Result<SceneEntry> read_entry(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -129,13 +140,14 @@ std::vector<SceneEntry> list_scenes(const std::string& folder) {
 }
 
 Result<SceneEntry> write_scene_of(const Upload& upload, const std::string& folder) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    const std::string mesh = fmt::format("{}/{}", folder, upload.name);
+    const Result<std::string> mine = make_upload_folder(folder);
+    if (!mine) { return mine.error(); }
+    const std::string mesh = fmt::format("{}/{}", *mine, upload.name);
     if (Result<void> written = write_bytes(mesh, upload.bytes); !written) { return written.error(); }
     const Result<Body> body = load_body(mesh);
     if (!body) {
-        std::filesystem::remove(mesh, failed);
+        std::error_code ignored;
+        std::filesystem::remove_all(*mine, ignored);
         return body.error();
     }
     Box held = bounds_of(body->elements.nodes);

@@ -206,7 +206,7 @@ private:
     }
 
     void close(websocket::close_code code, const char* reason) {
-        is_closing_ = true;
+        if (std::exchange(is_closing_, true)) { return; }
         socket_.async_close({code, reason}, [self = shared_from_this()](Failure) {});
     }
 

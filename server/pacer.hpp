@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 #include "clients.hpp"
 
@@ -13,23 +14,22 @@ class Pacer {
 public:
     static constexpr std::chrono::microseconds tick{8333}; // 120 Hz
 
-    /// Simulated seconds for this tick. Half of it is for the rest: cutting, frames, and the machine's own.
-    double seconds(double speed) const {
+    /// Simulated seconds for this tick, in steps of `step` s. A quarter of the tick is for the rest: cutting,
+    /// frames, and the machine's own.
+    double seconds(double speed, double step) const {
         const double asked = speed * std::chrono::duration<double>(tick).count();
         const double budget = 0.75 * std::chrono::duration<double>(tick).count();
-        return work_ > 0 ? std::min(asked, budget / work_) : asked;
+        return std::min(asked, budget / work_ * step);
     }
 
-    /// Tells what an advance of `simulated` s took.
-    void note(double simulated, double wall) {
+    /// Tells what `steps` took, s. By steps: a stiffer material makes more of them at once.
+    void note(std::int64_t steps, double wall) {
         constexpr double weight = 0.1;
-        if (!(simulated > 0)) { return; }
-        const double work = wall / simulated;
-        work_ += (work_ > 0 ? weight : 1) * (work - work_);
+        if (steps > 0) { work_ += weight * (wall / static_cast<double>(steps) - work_); }
     }
 
     /// Simulated seconds that a second of work makes.
-    double real_time_factor() const { return work_ > 0 ? 1 / work_ : 0; }
+    double real_time_factor(double step) const { return step / work_; }
 
     /// When the tick after `now` begins.
     Clock::time_point next(Clock::time_point now) {
@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    double work_ = 0; // s of wall a simulated second
+    double work_ = 1e-3; // s of wall a step; at first a guess, on the safe side
     Clock::time_point due_ = {};
 };
 

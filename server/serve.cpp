@@ -14,16 +14,13 @@ resect::Result<void> serve(const ServeOptions& options, const std::function<void
                     [&](ClientId client, std::shared_ptr<const std::string> bytes, bool is_binary) {
                         (*network)->send(client, std::move(bytes), is_binary);
                     });
-    resect::Result<void> played;
-    std::thread simulation([&] {
-        played = theatre.run();
-        (*network)->stop();
-    });
+    if (resect::Result<void> opened = theatre.open(); !opened) { return opened; }
+    std::thread simulation([&] { theatre.run(); });
     ready((*network)->port());
     (*network)->run();
     inbox.close();
     simulation.join();
-    return played;
+    return {};
 }
 
 } // namespace server

@@ -40,20 +40,18 @@ std::string read_bytes(const std::string& path) {
 Theatre::Theatre(TheatreOptions options, Inbox& inbox, Send send)
     : options_(std::move(options)), inbox_(inbox), clients_(std::move(send)) {}
 
-Result<void> Theatre::run() {
-    if (Result<void> started = start(options_.first); !started) { return started; }
+void Theatre::run() {
     while (!inbox_.is_closed()) {
         const Clock::time_point began = Clock::now();
         for (const Event& event : inbox_.take()) {
             handle(event);
         }
-        if (is_running()) { advance(pacer_.seconds(speed_)); }
+        if (is_running()) { advance(pacer_.seconds(speed_, scene_->simulation().time_step().used)); }
         publish(Clock::now());
         figures_.tick_ms = std::max(figures_.tick_ms, 1e3 * seconds_since(began));
         inbox_.wait_until(pacer_.next(Clock::now()));
         if (!is_running() && !has_news_) { inbox_.wait(); }
     }
-    return {};
 }
 
 void Theatre::handle(const Event& event) {
@@ -179,7 +177,7 @@ void Theatre::advance(double seconds) {
     const Clock::time_point began = Clock::now();
     const StepReport report = simulation.advance(std::max(seconds, step));
     const double cut = report.cut.us.total();
-    pacer_.note(static_cast<double>(report.steps) * step, seconds_since(began) - 1e-6 * cut);
+    pacer_.note(report.steps, seconds_since(began) - 1e-6 * cut);
     figures_.cut_us = std::max(figures_.cut_us, cut);
     figures_.cut_elements += report.cut.elements_cut;
     if (report.status == Status::diverged) {
@@ -201,7 +199,7 @@ void Theatre::take_steps(Index steps) {
 void Theatre::take_step() {
     const Simulation& simulation = scene_->simulation();
     const std::int64_t before = simulation.steps();
-    while (simulation.steps() == before && !figures_.diverged) {
+    for (int i = 0; i < 2 && simulation.steps() == before && !figures_.diverged; ++i) {
         advance(simulation.time_step().used);
     }
 }
@@ -221,7 +219,7 @@ void Theatre::publish(Clock::time_point now) {
     figures_.speed = speed_;
     figures_.pace = (simulation.time() - time_at_status_) / passed;
     figures_.step_rate = static_cast<double>(simulation.steps() - step_at_status_) / passed;
-    figures_.real_time_factor = pacer_.real_time_factor();
+    figures_.real_time_factor = pacer_.real_time_factor(simulation.time_step().used);
     figures_.clients = clients_.count();
     if (clients_.count() > 0) { clients_.send_status(status_text(simulation, figures_)); }
     figures_.tick_ms = figures_.cut_us = figures_.surface_us = 0;

@@ -22,8 +22,10 @@ class Theatre {
 public:
     Theatre(TheatreOptions options, Inbox& inbox, Send send);
 
-    /// Until the inbox is closed. An error if the first scene cannot be started.
-    resect::Result<void> run();
+    /// Starts the first scene.
+    resect::Result<void> open() { return start(options_.first); }
+    /// Plays, once open, until the inbox is closed.
+    void run();
 
 private:
     void handle(const Event& event);

@@ -23,7 +23,8 @@ public:
             [this](server::ClientId client, std::shared_ptr<const std::string> bytes, bool is_binary) {
                 network_->send(client, std::move(bytes), is_binary);
             });
-        simulation_ = std::thread([this] { resect::must(theatre_->run()); });
+        resect::must(theatre_->open());
+        simulation_ = std::thread([this] { theatre_->run(); });
         io_ = std::thread([this] { network_->run(); });
     }
     ~LiveServer() {

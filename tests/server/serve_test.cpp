@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <doctest/doctest.h>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -144,6 +145,7 @@ TEST_CASE("scenes change, bodies are dropped in, and broken ones explain themsel
     CHECK(page.read_until("refused")["id"] == 2);
     page.send_binary(server::build_file("broken.msh", "$MeshFormat\nrubbish\n"));
     CHECK(page.read_until("refused")["message"].get<std::string>().find("broken.msh") != std::string::npos);
+    CHECK(std::filesystem::is_empty(live.folder.file("out"))); // and leave nothing
     page.send_binary("RSCTnonsense");
     CHECK(page.read_until("refused")["message"].get<std::string>().find("docs/protocol.md") !=
           std::string::npos);
@@ -158,6 +160,9 @@ TEST_CASE("scenes change, bodies are dropped in, and broken ones explain themsel
     page.send_text(R"({"id":3,"save":"record"})");
     const Record record = must(load_record(page.read_until("saved")["path"]));
     CHECK(must(load_scene(record.scene)).setup.body.elements.tets.size() == 192);
+    page.send_binary(server::build_file("my bar.msh", bytes.substr(0, bytes.size() / 2)));
+    CHECK(page.read_until("refused")["message"].get<std::string>().find("my_bar.msh") != std::string::npos);
+    CHECK(must(load_scene(record.scene)).setup.body.elements.tets.size() == 192); // as it was
     page.send_text(R"({"id":4,"save":"bar.vtu"})");
     CHECK(must(load_body(page.read_until("saved")["path"])).elements.tets.size() == 192);
 }

@@ -83,7 +83,6 @@ class Simulator {
     });
     const room: Room = {
       stage: this.stage, body: this.body, connection: this.connection, settings: this.settings,
-      say: (message) => toast(message),
       readout: (text, x, y) => showReadout(text, x, y),
     };
     const trace = new StrokeTrace(this.stage.scene);

@@ -10,7 +10,6 @@ export interface Room {
   body: Body;
   connection: Connection;
   settings: ToolSettings;
-  say(message: string): void;
   readout(text: string | undefined, x: number, y: number): void;
 }
 
