@@ -105,7 +105,7 @@ void Clients::publish(resect::Simulation& simulation, FrameHeader header, Clock:
                              shown.message != header.message;
         if (!is_news) { continue; }
         auto found = std::find_if(built.begin(), built.end(),
-                                  [&](const Built& one) { return one.request == client.has; });
+                                  [&has = client.has](const Built& one) { return one.request == has; });
         if (found == built.end()) {
             std::uint64_t revision = 0;
             std::string bytes = build_frame(simulation, header, client.has, revision);

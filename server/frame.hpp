@@ -31,7 +31,7 @@ std::string build_frame(resect::Simulation& simulation, const FrameHeader& heade
                         const FrameRequest& request, std::uint64_t& revision);
 
 /// A file on its way to the page.
-std::string build_file(const std::string& name, std::string_view bytes);
+std::string build_file(const std::string& name, std::string_view content);
 
 /// A file on its way from the page.
 resect::Result<Upload> parse_upload(std::string_view bytes);
