@@ -87,7 +87,7 @@ double pull_back(const Cutter& cutter, const MaterialPoint& point, const Instant
     return length(pulled);
 }
 
-/// Distance from the sheet at rest: the least at which the blade passes the point, pulled back.
+/// Distance at rest: the least at which the blade passes the point, pulled back.
 double distance_from_way(const Cutter& cutter, const MaterialPoint& point, std::span<const Instant> way) {
     double nearest = std::numeric_limits<double>::infinity();
     double at_rest = nearest;
@@ -109,6 +109,16 @@ double distance_from_way(const Cutter& cutter, const MaterialPoint& point, std::
         at_rest = distance == 0 ? 0 : distance / pull_back(cutter, point, way[i], off);
     }
     return at_rest;
+}
+
+double distance_from_sheet(const Cutter& cutter, const MaterialPoint& point, Index stroke,
+                           std::span<const Way> ways) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Way& way : ways) {
+        if (way.stroke != stroke) { continue; }
+        nearest = std::min(nearest, distance_from_way(cutter, point, way.instants));
+    }
+    return nearest;
 }
 
 } // namespace
@@ -194,13 +204,13 @@ Index find_lost_constraint(const Cutter& cutter, std::span<const std::uint8_t> h
     return lost;
 }
 
-SheetDistance measure_sheet(const Cutter& cutter, std::span<const std::vector<Instant>> ways) {
+SheetDistance measure_sheet(const Cutter& cutter, std::span<const Way> ways) {
     double sum = 0;
     SheetDistance measured;
     for_each_boundary_face(cutter, [&](const MaterialTet& tet, std::size_t k) {
         if (tet.label[k] <= 0) { return; }
         const MaterialPoint centroid = centroid_of(cutter, tet, k);
-        const double distance = distance_from_way(cutter, centroid, ways[row(tet.label[k] - 1)]);
+        const double distance = distance_from_sheet(cutter, centroid, tet.label[k], ways);
         sum += distance * distance;
         measured.largest = std::max(measured.largest, distance);
         ++measured.faces;

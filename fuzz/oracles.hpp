@@ -36,14 +36,20 @@ struct Instant {
     std::vector<Vec3> displacement = {}; // [element node] m
 };
 
+/// From a blade's placing to its lifting. A blade that goes on with a stroke adds another way to it.
+struct Way {
+    Index stroke = 0; // as the cutter counts them
+    std::vector<Instant> instants = {};
+};
+
 /// How far the torn faces' centroids lie from where the blade went, at rest.
 struct SheetDistance {
     double root_mean_square = 0, largest = 0; // m
     Index faces = 0;
 };
 
-/// `ways` are the instants of strokes 1, 2, ...: all nodes of an element node moved alike.
-SheetDistance measure_sheet(const Cutter& cutter, std::span<const std::vector<Instant>> ways);
+/// All nodes of an element node must have moved alike.
+SheetDistance measure_sheet(const Cutter& cutter, std::span<const Way> ways);
 
 /// Where the solver's arrays are not what S says, in words, or nothing.
 std::string find_stale_array(const Engine& engine);

@@ -112,7 +112,7 @@ private:
         std::vector<Vec3> now = move_elements(0);
         for (std::size_t b = 0; b < stroke.blades.size(); ++b) {
             place_blade(*cutter_, static_cast<Index>(b), stroke.blades[b].front(), of_nodes(now));
-            ways_.push_back({{make_frame(stroke.blades[b].front()), now}});
+            ways_.push_back({cutter_->blades[b].stroke, {{make_frame(stroke.blades[b].front()), now}}});
         }
         CutReport report;
         const Index increments = count_increments(stroke);
@@ -123,7 +123,7 @@ private:
                 const Edge pose = pose_after(stroke, b, i);
                 sweep_blade(*cutter_, static_cast<Index>(b), pose, of_nodes(now), of_nodes(next), delta_,
                             report);
-                std::vector<Instant>& way = ways_[first_way + b];
+                std::vector<Instant>& way = ways_[first_way + b].instants;
                 way.push_back({carry_frame(way.back().frame, pose), next});
             }
             now = std::move(next);
@@ -181,7 +181,7 @@ private:
     Body body_ = {};
     CutterPtr cutter_ = {};
     Delta delta_ = {};
-    std::vector<std::vector<Instant>> ways_ = {}; // [stroke - 1]
+    std::vector<Way> ways_ = {};
     Verdict verdict_ = {};
 };
 
