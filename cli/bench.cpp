@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,6 +9,7 @@
 #include "bench_fuzz.hpp"
 #include "bench_matrix.hpp"
 #include "bench_realtime.hpp"
+#include "bench_soak.hpp"
 #include "bench_step.hpp"
 #include "options.hpp"
 #include "report.hpp"
@@ -22,10 +24,11 @@ using Json = nlohmann::ordered_json;
 } // namespace
 
 int bench(const BenchOptions& options) {
+    constexpr std::array known = {"step", "cut", "realtime", "matrix", "fuzz", "soak"};
     for (const std::string& name : options.names) {
-        if (name != "step" && name != "cut" && name != "realtime" && name != "matrix" && name != "fuzz") {
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
             return refuse(
-                fmt::format("bench: '{}' is not known; give step, cut, realtime, matrix or fuzz", name));
+                fmt::format("bench: '{}' is not known; give one of {}", name, fmt::join(known, ", ")));
         }
     }
     const auto named = [&](const char* name) {
@@ -40,6 +43,11 @@ int bench(const BenchOptions& options) {
     if (wanted("cut")) { json["cut"] = bench_cut(talk); }
     if (named("realtime")) { json["realtime"] = bench_realtime(options.threads, talk); }
     if (named("matrix")) { json["matrix"] = bench_matrix(options.seeds, std::max(options.threads, 1), talk); }
+    if (named("soak")) {
+        const Result<Json> soak = bench_soak(talk);
+        if (!soak) { return refuse(soak.error().message); }
+        json["soak"] = *soak;
+    }
     long failures = 0;
     if (named("fuzz")) { json["fuzz"] = bench_fuzz(options, talk, failures); }
     const int status = failures == 0 ? done : failed;

@@ -120,7 +120,7 @@ void add_picture(CLI::App& app, cli::PictureOptions& options, int& status) {
 void add_bench(CLI::App& app, cli::BenchOptions& options, int& status) {
     CLI::App* command = app.add_subcommand("bench", "measure this machine with this program");
     command->add_option("name", options.names,
-                        "step, cut; both without a name; realtime, matrix, fuzz (minutes)");
+                        "step, cut; both without a name; realtime, soak, matrix, fuzz (minutes)");
     command->add_option("--threads", options.threads, "threads; of matrix: runs at a time")
         ->check(CLI::Range(0, 256));
     command->add_flag("--large", options.large, "of step: blocks of 400k and 3M, a liver of 100,000");
@@ -159,8 +159,8 @@ int run_program(int argc, char** argv) {
     add_picture(app, picture, status);
     add_bench(app, bench, status);
     if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
-        return cli::refuse(
-            fmt::format("'{}' is not a command; give run, replay, mesh, info, picture or bench", argv[1]));
+        return cli::refuse(fmt::format(
+            "'{}' is not a command; give run, serve, replay, mesh, info, picture or bench", argv[1]));
     }
     try {
         app.parse(argc, argv);

@@ -14,6 +14,7 @@ class Samples {
 public:
     void add(double value) { values_.push_back(value); }
     std::size_t count() const { return values_.size(); }
+    double last() const { return values_.back(); }
     double sum() const {
         double total = 0;
         for (const double value : values_) {

@@ -54,9 +54,8 @@ int serve(const ServeOptions& options) {
     const server::ServeOptions told = {
         .network = {.address = options.address, .port = options.port, .names = options.names},
         .theatre = theatre_options(options),
-        .pages = pages.string(),
     };
-    const resect::Result<void> served = server::serve(told, [&](int port) {
+    const resect::Result<void> served = server::serve(told, pages.string(), [&](int port) {
         const std::string address = fmt::format(
             "http://{}:{}/", options.address == "127.0.0.1" ? "localhost" : options.address, port);
         fmt::print("Open {} and cut; Ctrl-C ends it.\n", address);

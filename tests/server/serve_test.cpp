@@ -4,10 +4,12 @@
 #include <fstream>
 #include <iterator>
 
-#include "server/client.hpp"
+#include "bench/client.hpp"
+#include "bench/rubbish.hpp"
 #include "server/live_server.hpp"
 
 using namespace resect;
+using bench::Client;
 using Json = nlohmann::json;
 
 namespace {
@@ -177,17 +179,7 @@ TEST_CASE("connections that are hostile, half closed or stalled hurt nobody") {
     Client half(live.port());
     half.send_raw("GET /ws HTTP/1.1\r\nHost: local");
     for (int i = 0; i < 50; ++i) {
-        Client rubbish(live.port());
-        if (i % 3 == 0) { rubbish.send_raw(std::string(3000, static_cast<char>(i))); }
-        if (i % 3 == 1) {
-            rubbish.upgrade();
-            rubbish.send_raw("\xff\xff\xff\xff rubbish in place of frames");
-        }
-        if (i % 3 == 2) {
-            rubbish.upgrade();
-            rubbish.send_text("{\"id\":1,");
-            rubbish.send_text("{\"id\":1,\"command\":{\"undo\":{}}}");
-        }
+        bench::send_rubbish(live.port(), i);
     }
     Client loud(live.port());
     loud.upgrade();

@@ -16,6 +16,8 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+namespace bench {
+
 /// A connection; reads give up after some seconds.
 class Client {
 public:
@@ -161,3 +163,5 @@ private:
     bool is_open_ = false;
     std::string bytes_ = {};
 };
+
+} // namespace bench
