@@ -283,7 +283,7 @@ class Simulator {
       byId('actions').append(button);
       keys.push([key, `${label}: ${words}`]);
     }
-    keys.push(['V', 'next view'], ['F', 'the whole body in view'], ['P', 'pin what the grasper lets go'], ['Right drag', 'turn the view'], ['Wheel', 'zoom'], ['Middle drag', 'move the view']);
+    keys.push(['V', 'next view'], ['F', 'the whole body in view'], ['P', 'pin what the grasper lets go'], ['Right drag', 'turn the view'], ['Wheel', 'zoom'], ['Middle drag', 'move the view'], ['Two fingers', 'zoom and move; one finger beside the body turns']);
     byId('keys').append(...keys.flatMap(([key, words]) => [make('dt', key), make('dd', words)]));
   }
 
