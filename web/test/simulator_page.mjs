@@ -56,6 +56,25 @@ async function cutGraspAndUndo(page) {
   }
 }
 
+/** With a tool in hand: the right button turns, the middle one moves. @param {import('playwright-core').Page} page */
+async function lookAround(page) {
+  const was = await ask(page, 'resect.heading');
+  for (const button of /** @type {const} */ (['right', 'middle'])) {
+    await page.mouse.move(560, 420);
+    await page.mouse.down({ button });
+    await page.mouse.move(500, 430);
+    await page.mouse.move(460, 440);
+    await page.mouse.up({ button });
+    const now = await ask(page, 'resect.heading');
+    const turned = Math.hypot(...now.map((x, i) => x - was[i]));
+    if (button === 'right') {
+      assert.ok(turned > 0.1, 'the right button turns the view');
+      was.splice(0, 3, ...now);
+    } else assert.ok(turned < 1e-6, 'the middle button moves it only');
+  }
+  await page.keyboard.press('f');
+}
+
 /** @param {import('playwright-core').Page} page */
 async function saveAndReplay(page) {
   await page.keyboard.press('d');
@@ -116,6 +135,7 @@ try {
   await until(page, 'window.resect?.ready && resect.driving');
   await page.screenshot({ path: join(out, 'page_start.png') });
   await cutGraspAndUndo(page);
+  await lookAround(page);
   await saveAndReplay(page);
   await changeScenes(page);
   assert.deepEqual(complaints, [], 'no error in the console');

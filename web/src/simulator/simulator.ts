@@ -460,6 +460,7 @@ function open(simulator: Simulator): object {
     get driving() { return simulator.driving; },
     get scriptMs() { return simulator.scriptMs; },
     get latency() { return simulator.latency; },
+    get heading() { return simulator.stage.camera.getWorldDirection(new Vector3()).toArray(); },
     screenOf: (point: [number, number, number]) => simulator.stage.screenOf(new Vector3(...point)),
     pick: (x: number, y: number) => simulator.pick(x, y),
     vertex: (row: number) => [...simulator.body.position.values.subarray(3 * row, 3 * row + 3)],

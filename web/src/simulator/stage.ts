@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
-  ACESFilmicToneMapping, CircleGeometry, Color, DirectionalLight, Mesh, MeshStandardMaterial, PCFShadowMap, PerspectiveCamera, Ray, Raycaster, Scene,
+  ACESFilmicToneMapping, CircleGeometry, Color, DirectionalLight, MOUSE, Mesh, MeshStandardMaterial, PCFShadowMap, PerspectiveCamera, Ray, Raycaster, Scene,
   Sphere, Vector2, Vector3, WebGLRenderer, type BufferGeometry, type Plane,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -44,6 +44,7 @@ export class Stage {
     this.aside = aside;
     this.renderer = createRenderer(canvas);
     this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.ROTATE };
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
     this.camera.up.set(0, 0, 1);
