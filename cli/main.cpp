@@ -133,6 +133,14 @@ void add_bench(CLI::App& app, cli::BenchOptions& options, int& status) {
     command->callback([&] { status = cli::bench(options); });
 }
 
+void add_lab(CLI::App& app, cli::LabOptions& options, int& status) {
+    CLI::App* command = app.add_subcommand("lab", "the paper's results and its rivals, as one report");
+    command->add_option("--out", options.out, "folder for index.html, .csv and .vtp files")
+        ->capture_default_str();
+    command->add_flag("--quick", options.quick, "coarse bodies, in under a minute");
+    command->callback([&] { status = cli::lab(options); });
+}
+
 bool has_command(const CLI::App& app, const std::string& name) {
     const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App*) { return true; });
     return std::any_of(commands.begin(), commands.end(),
@@ -158,9 +166,11 @@ int run_program(int argc, char** argv) {
     add_info(app, info, status);
     add_picture(app, picture, status);
     add_bench(app, bench, status);
+    cli::LabOptions lab;
+    add_lab(app, lab, status);
     if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
         return cli::refuse(fmt::format(
-            "'{}' is not a command; give run, serve, replay, mesh, info, picture or bench", argv[1]));
+            "'{}' is not a command; give run, serve, replay, mesh, info, picture, bench or lab", argv[1]));
     }
     try {
         app.parse(argc, argv);

@@ -69,6 +69,11 @@ struct BenchOptions {
     std::string out = "fuzz_cases";
 };
 
+struct LabOptions {
+    std::string out = "out/lab";
+    bool quick = false;
+};
+
 int run(const RunOptions& options);
 int replay(const ReplayOptions& options);
 int serve(const ServeOptions& options);
@@ -76,6 +81,7 @@ int mesh(const MeshOptions& options);
 int info(const std::string& path);
 int picture(const PictureOptions& options);
 int bench(const BenchOptions& options);
+int lab(const LabOptions& options);
 
 /// Prints the line and returns `refused`.
 int refuse(const std::string& line);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the picture page into one HTML file and the simulator into a folder, or, with --tests, each test into one file
+// Bundles the picture and the report page into one HTML file each and the simulator into a folder, or, with --tests, each test into one file
 // that Node can run.
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
@@ -10,15 +10,18 @@ const here = dirname(fileURLToPath(import.meta.url));
 const dist = join(here, 'dist');
 mkdirSync(dist, { recursive: true });
 
-async function buildPicture() {
+/** One HTML file with its script, and its style if it has one, inside. @param {string} script @param {string} page @param {string} out */
+async function buildPage(script, page, out) {
   const result = await build({
-    entryPoints: [join(here, 'src/picture_page.ts')],
-    bundle: true, minify: true, format: 'iife', target: 'es2022', legalComments: 'inline', write: false,
+    entryPoints: [join(here, script)],
+    bundle: true, minify: true, format: 'iife', target: 'es2022', legalComments: 'inline', write: false, outdir: dist,
   });
+  /** @param {string} ending */
+  const text = (ending) => result.outputFiles.find((file) => file.path.endsWith(ending))?.text ?? '';
   // The script sits inside the page, where these letters would end it.
-  const script = result.outputFiles[0].text.replaceAll('</script', '<\\/script');
-  const page = readFileSync(join(here, 'src/picture.html'), 'utf8');
-  writeFileSync(join(dist, 'picture.html'), page.replace('/* script */', () => script));
+  const inlined = text('.js').replaceAll('</script', '<\\/script');
+  const html = readFileSync(join(here, page), 'utf8');
+  writeFileSync(join(dist, out), html.replace('/* style */', () => text('.css')).replace('/* script */', () => inlined));
 }
 
 async function buildSimulator() {
@@ -44,4 +47,8 @@ async function buildTests() {
 }
 
 if (process.argv.includes('--tests')) await buildTests();
-else await Promise.all([buildPicture(), buildSimulator()]);
+else await Promise.all([
+  buildPage('src/picture_page.ts', 'src/picture.html', 'picture.html'),
+  buildPage('src/report/report.ts', 'src/report/report.html', 'report.html'),
+  buildSimulator(),
+]);

@@ -48,7 +48,13 @@ async function undo() {
   due = await ask(page, 'resect.status.time');
 }
 
-const view = (/** @type {string} */ name) => page.click(`#views button:text-is("${name}")`);
+/** A click on a panel, after which the pointer is where it was. @param {string} what */
+async function click(what) {
+  await page.click(what);
+  await point(at);
+}
+
+const view = (/** @type {string} */ name) => click(`#views button:text-is("${name}")`);
 
 try {
   await page.goto(`http://localhost:${port}/?quality=high`);
@@ -81,12 +87,13 @@ try {
   await roll(0.9, [740, 570]);
   await roll(0.9, [660, 560]);
   await page.mouse.up({ button: 'right' });
-  await page.keyboard.press('2');
-  await roll(0.8, [800, 170]);
+  await page.keyboard.press('1');
+  await click('text=Blade along the view');
+  await roll(0.8, [900, 250]);
   await page.mouse.down();
-  await roll(0.8, [800, 660]);
+  await roll(0.5, [720, 660]);
   await page.mouse.up();
-  await roll(2.2, [860, 680]);
+  await roll(0.7, [860, 680]);
   await view('Pieces');
   await roll(1);
   await view('Tissue');

@@ -128,3 +128,23 @@ TEST_CASE("bench prints what it measured, and as JSON") {
     }
     CHECK(is_refusal(run_resect("bench speed")));
 }
+
+TEST_CASE("lab writes its report, with the files beside it") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_resect("lab --quick --out " + folder.file("lab"));
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == 0);
+    const std::string html = read_text(folder.file("lab/index.html"));
+    for (const char* title :
+         {"Scene 1", "Scene 2", "Scene 3", "The rivals", "Is the cut state right?", "Paper to code"}) {
+        CAPTURE(title);
+        CHECK(html.find(title) != std::string::npos);
+    }
+    CHECK(html.find("nan") == std::string::npos);
+    for (const char* file :
+         {"rivals.csv", "figure_4.csv", "liver_frames.csv", "steps.csv", "cuts/Along faces.vtp"}) {
+        CAPTURE(file);
+        CHECK(read_text(folder.file(std::string("lab/") + file)).size() > 200);
+    }
+    CHECK(is_refusal(run_resect("lab --quick --out /proc/lab")));
+}

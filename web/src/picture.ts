@@ -12,8 +12,16 @@ import type { Surface } from './surface.ts';
 /** Enough edge, lamp and sky samples that no grain is left, few enough that software rendering stays in seconds. */
 const passes = 14;
 
-/** Draws all stills of the request into the page; throws an Error whose text names the surface and the fault. */
+/** Makes all stills of the request the page; throws an Error whose text names the surface and the fault. */
 export function drawPicture(request: PictureRequest): void {
+  const page = drawStrip(request);
+  page.style.width = `${request.size[0]}px`;
+  page.style.height = `${request.size[1]}px`;
+  document.body.replaceChildren(page);
+}
+
+/** All stills of the request side by side. */
+export function drawStrip(request: PictureRequest): HTMLElement {
   const surfaces = request.surfaces.map(({ name, base64 }) => {
     try {
       return readSurface(name, bytesOf(base64));
@@ -33,7 +41,7 @@ export function drawPicture(request: PictureRequest): void {
   const bounds = box.getBoundingSphere(new Sphere());
   const floorHeight = box.min.z - 0.06 * bounds.radius;
   const camera = chooseCamera(request, points, width / height);
-  const page = layOut(request);
+  const strip = layOut(request);
   surfaces.forEach((surface, i) => {
     const still = buildStill({ mesh: splitCreases(surface), bounds, floorHeight, blade, camera, environment });
     accumulate(renderer, still.scene, camera, passes, (pass) => {
@@ -41,9 +49,11 @@ export function drawPicture(request: PictureRequest): void {
       still.sky.look(renderer, pass, passes);
     });
     still.sky.dispose();
-    addPanel(page, renderer.domElement, surfaces.length > 1 ? request.surfaces[i].caption : '');
+    addPanel(strip, renderer.domElement, surfaces.length > 1 ? request.surfaces[i].caption : '');
   });
   renderer.dispose();
+  renderer.forceContextLoss(); // a page may have few contexts at once
+  return strip;
 }
 
 function bytesOf(base64: string): Uint8Array {
@@ -77,14 +87,11 @@ function chooseCamera(request: PictureRequest, points: Float32Array, aspect: num
 
 function layOut(request: PictureRequest): HTMLElement {
   const page = document.createElement('main');
-  page.style.width = `${request.size[0]}px`;
-  page.style.height = `${request.size[1]}px`;
   if (request.title) {
     const title = document.createElement('h1');
     title.textContent = request.title;
     page.append(title);
   }
-  document.body.replaceChildren(page);
   return page;
 }
 

@@ -13,10 +13,3 @@ function draw(request: PictureRequest): string | undefined {
 }
 
 Object.assign(window, { drawPicture: draw });
-
-// A report inlines this page with its request in it and no one to call the function.
-const inlined = document.getElementById('request');
-if (inlined) {
-  const fault = draw(JSON.parse(inlined.textContent ?? '') as PictureRequest);
-  if (fault) document.body.textContent = fault;
-}
