@@ -174,23 +174,22 @@ Json bench_at_once(bool quick) {
     const std::vector<Index> sizes =
         quick ? std::vector<Index>{4, 6} : std::vector<Index>{4, 6, 8, 10, 13, 16, 18};
     for (const Index cells : sizes) {
-        for (const auto& [name, quantities] : ways) {
-            CutReport best;
-            double least = std::numeric_limits<double>::infinity();
-            for (int replay = 0; replay < 2 * replays; ++replay) {
-                const CutReport cut = cut_at_once(cells, quantities);
-                if (cut.us.total() < least) {
-                    least = cut.us.total();
-                    best = cut;
-                }
+        std::array<CutReport, 3> best; // of each way, which take turns: the machine is not alike all the time
+        for (int replay = 0; replay < 2 * replays; ++replay) {
+            for (std::size_t way = 0; way < best.size(); ++way) {
+                const CutReport cut = cut_at_once(cells, ways[way].second);
+                if (replay == 0 || cut.us.total() < best[way].us.total()) { best[way] = cut; }
             }
-            rows.push_back({{"elements_cut", best.elements_cut},
-                            {"copies_added", best.copies_added},
-                            {"quantities", name},
-                            {"total_us", least},
-                            {"detect_us", best.us.detect},
-                            {"topology_us", least - best.us.detect - best.us.quantities},
-                            {"quantities_us", best.us.quantities}});
+        }
+        for (std::size_t way = 0; way < best.size(); ++way) {
+            const CutReport& cut = best[way];
+            rows.push_back({{"elements_cut", cut.elements_cut},
+                            {"copies_added", cut.copies_added},
+                            {"quantities", ways[way].first},
+                            {"total_us", cut.us.total()},
+                            {"detect_us", cut.us.detect},
+                            {"topology_us", cut.us.total() - cut.us.detect - cut.us.quantities},
+                            {"quantities_us", cut.us.quantities}});
         }
     }
     return rows;

@@ -33,11 +33,10 @@ public:
 
     /// Steps a second over `seconds`; 0 where the server is gone.
     double measure_step_rate() {
-        Timer timer;
         const std::int64_t first = read_step();
-        double passed = timer.lap();
         std::int64_t last = first;
-        for (passed = 0; passed < seconds && last >= 0; passed += timer.lap()) {
+        double passed = 0;
+        for (Timer timer; passed < seconds && last >= 0; passed += timer.lap()) {
             last = read_step();
         }
         return first < 0 || last < 0 ? 0 : static_cast<double>(last - first) / passed;

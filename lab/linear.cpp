@@ -35,8 +35,8 @@ Eigen::Matrix<double, 6, 12> compute_strain_matrix(const TetMesh& mesh, const Te
     Eigen::Matrix<double, 6, 12> b = Eigen::Matrix<double, 6, 12>::Zero();
     for (int k = 0; k < 4; ++k) {
         const Eigen::Vector3d g = gradients.col(k);
-        b.block<6, 3>(0, 3 * k) << g[0], 0, 0, 0, g[1], 0, 0, 0, g[2], g[1], g[0], 0, 0, g[2], g[1], g[2], 0,
-            g[0];
+        b.block<6, 3>(0, Eigen::Index{3} * k) << g[0], 0, 0, 0, g[1], 0, 0, 0, g[2], g[1], g[0], 0, 0, g[2],
+            g[1], g[2], 0, g[0];
     }
     return b;
 }

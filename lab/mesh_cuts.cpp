@@ -2,7 +2,9 @@
 #include "lab/mesh_cuts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -14,6 +16,8 @@ namespace lab {
 using namespace resect;
 
 namespace {
+
+using std::numbers::pi;
 
 constexpr double least_volume_left = 0.1; // of a tet whose node is snapped
 
@@ -170,11 +174,13 @@ TetMesh make_jittered_block(const Vec3& size, const std::array<Index, 3>& cells,
     TetMesh mesh = must(make_block(size, cells)).elements;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> drawn(-share, share);
+    const double bend = share > 0 ? 0.5 * size[0] / cells[0] : 0;
     for (Vec3& node : mesh.nodes) {
+        const Vec3 at = {node[0] / size[0], node[1] / size[1], node[2] / size[2]};
+        node[0] += bend * std::sin(pi * at[0]) * std::sin(2 * pi * (at[1] + at[2]));
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double move = drawn(random) * size[axis] / cells[axis];
-            const double at = node[axis] / size[axis];
-            if (at > 1e-9 && at < 1 - 1e-9) { node[axis] += move; }
+            if (at[axis] > 1e-9 && at[axis] < 1 - 1e-9) { node[axis] += move; }
         }
     }
     return mesh;

@@ -29,8 +29,9 @@ TetMesh snap_nodes(TetMesh mesh, const Sheet& sheet, double reach, const Box& bl
 /// Without the nodes that no tet uses.
 CutMesh drop_unused_nodes(const TetMesh& mesh);
 
-/// A block of Kuhn cells of which the inner nodes are moved about by up to `share` of a cell, and those on
-/// its faces within them.
+/// A block of Kuhn cells whose inner nodes are moved about by up to `share` of a cell, and those on its faces
+/// within them. Layers across x are bent before by half a cell, so that a flat sheet across x goes through
+/// cells at every height; not if nothing is to be moved.
 TetMesh make_jittered_block(const Vec3& size, const std::array<Index, 3>& cells, double share, unsigned seed);
 
 double volume_of(const TetMesh& mesh);

@@ -387,8 +387,8 @@ Outcome cut_by_tensor_mass(const Problem& problem) {
             tissue.step(outcome.step);
         }
     });
-    const double seconds = 1; // at 20 1/s it has come to rest
-    for (double t = 0; t < seconds; t += outcome.step) {
+    const int steps_to_rest = static_cast<int>(1 / outcome.step); // a second, at 20 1/s
+    for (int i = 0; i < steps_to_rest; ++i) {
         tissue.step(outcome.step);
     }
     const CutMesh cut = without(problem.mesh, is_gone);

@@ -45,8 +45,9 @@ struct Outcome {
     double step_ms = 0;                     // one step, or one solution
     double step = 0;                        // s, that is stable; 0: solved at once
     std::string remark = {};
-    /// A step takes no longer than it simulates; a solution no longer than a frame at 25 Hz.
-    bool is_real_time() const { return step_ms < (step > 0 ? 1e3 * step : 40); }
+    /// A step takes no longer than it simulates, a solution no longer than a frame at 25 Hz, and the cut no
+    /// longer than a stroke of a second.
+    bool is_real_time() const { return step_ms < (step > 0 ? 1e3 * step : 40) && cut_ms < 1000; }
 };
 
 Outcome cut_by_virtual_nodes(const Problem& problem, const resect::CutOptions& options = {});

@@ -12,7 +12,7 @@ namespace lab {
 
 /// Depth, m, and opening, m: ten-node tets on a conforming mesh of 20 x 4 x 20 cells.
 inline constexpr std::pair<double, double> reference_openings[] = {
-    {0.005, 0.0003}, {0.01, 0.0006}, {0.02, 0.0014117}, {0.03, 0.0033829}, {0.05, 0.0125814}};
+    {0.005, 0.0000755}, {0.01, 0.0003352}, {0.02, 0.0014117}, {0.03, 0.0033829}, {0.05, 0.0125814}};
 
 /// Cells along the longer edges, and opening, m: four-node tets on conforming meshes, depth 0.05 m.
 inline constexpr std::pair<resect::Index, double> conforming_openings[] = {

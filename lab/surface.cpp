@@ -123,6 +123,7 @@ Result<void> write_surface_file(const std::string& path, const CutSurface& surfa
         }
     }
     std::vector<Vec3f> normals;
+    normals.reserve(normal.size());
     for (const Vec3& n : normal) {
         normals.push_back(to_float(direction(n)));
     }

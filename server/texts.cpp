@@ -33,6 +33,15 @@ Json largest_pieces(std::span<const Piece> pieces) {
     return list;
 }
 
+Json list_materials(std::span<const Material> materials) {
+    Json list = Json::array();
+    for (const Material& material : materials) {
+        list.push_back(
+            {{"young", material.young}, {"poisson", material.poisson}, {"density", material.density}});
+    }
+    return list;
+}
+
 const char* state_of(const Figures& figures) {
     if (figures.diverged) { return "diverged"; }
     return figures.paused ? "paused" : "running";
@@ -56,17 +65,12 @@ std::string driving_text(bool driving, std::size_t clients) {
 std::string loading_text(const std::string& title) { return text_of({{"loading", {{"title", title}}}}); }
 
 std::string scene_text(const SceneFacts& facts) {
-    Json materials = Json::array();
-    for (const Material& material : facts.materials) {
-        materials.push_back(
-            {{"young", material.young}, {"poisson", material.poisson}, {"density", material.density}});
-    }
     return text_of({{"scene",
                      {{"number", facts.number},
                       {"name", facts.name},
                       {"title", facts.title},
                       {"elements", facts.elements},
-                      {"materials", materials},
+                      {"materials", list_materials(facts.materials)},
                       {"gravity", facts.gravity},
                       {"lo", facts.bounds.lo},
                       {"hi", facts.bounds.hi},
@@ -109,6 +113,8 @@ std::string status_text(Simulation& simulation, const Figures& figures) {
              {"stretch_max", strain.stretch_max},
              {"inverted", strain.elements_inverted}}},
            {"strokes", simulation.undoable_strokes()},
+           {"materials", list_materials(simulation.materials())},
+           {"gravity", simulation.gravity()},
            {"warnings", simulation.warnings()},
            {"clients", figures.clients}}}});
 }

@@ -72,6 +72,9 @@ public:
     /// The commands applied; not what advance(), settle() and cut() were asked for.
     std::span<const Recorded> record() const;
     Index undoable_strokes() const; // how many Undo can go back
+    /// As they are now, by region.
+    std::span<const Material> materials() const;
+    Vec3 gravity() const; // m/s^2, now
     Energies energies() const;
     TimeStep time_step() const;
     Strain strain() const;

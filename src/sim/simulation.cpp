@@ -186,6 +186,10 @@ Index Simulation::undoable_strokes() const { return static_cast<Index>(engine_->
 
 /// All at the half step behind, where the velocity is: there the works of the dampings and the energies
 /// balance.
+std::span<const Material> Simulation::materials() const { return engine_->tissue.materials; }
+
+Vec3 Simulation::gravity() const { return to_double(engine_->constants.gravity); }
+
 Energies Simulation::energies() const {
     const Engine& engine = *engine_;
     const NodeArrays& nodes = engine.nodes;

@@ -75,6 +75,14 @@ async function lookAround(page) {
   await page.keyboard.press('f');
 }
 
+/** The sliders show what the tissue is, whoever changed it. @param {import('playwright-core').Page} page */
+async function changeMaterial(page) {
+  for (const young of [8000, 5000]) {
+    await ask(page, `resect.send({ command: { set_material: { region: 0, young: ${young}, poisson: 0.35, density: 1000 } } })`);
+    await until(page, `document.querySelector('output[for=slider-young-s-modulus]').value === '${young / 1000}.00 kPa'`);
+  }
+}
+
 /** @param {import('playwright-core').Page} page */
 async function saveAndReplay(page) {
   await page.keyboard.press('d');
@@ -136,6 +144,7 @@ try {
   await page.screenshot({ path: join(out, 'page_start.png') });
   await cutGraspAndUndo(page);
   await lookAround(page);
+  await changeMaterial(page);
   await saveAndReplay(page);
   await changeScenes(page);
   assert.deepEqual(complaints, [], 'no error in the console');

@@ -16,6 +16,8 @@ export interface Slider {
   input: HTMLInputElement;
   /** Shows a value without telling anybody. */
   set(value: number): void;
+  /** The same, but not under somebody's hand. */
+  follow(value: number): void;
 }
 
 export interface SliderOptions {
@@ -28,6 +30,9 @@ export interface SliderOptions {
   show(value: number): string;
   change(value: number): void;
 }
+
+/** After a touch, until what it asked for has come back, ms. */
+const quiet = 1000;
 
 export function addSlider(parent: HTMLElement, { label, lo, hi, value, logarithmic = false, show, change }: SliderOptions): Slider {
   const row = make('div', '', 'setting');
@@ -43,7 +48,9 @@ export function addSlider(parent: HTMLElement, { label, lo, hi, value, logarithm
     shown.value = show(at);
     input.setAttribute('aria-valuetext', show(at));
   };
+  let touched = -Infinity; // ms
   input.addEventListener('input', () => {
+    touched = performance.now();
     const at = fromShare(Number(input.value));
     shown.value = show(at);
     input.setAttribute('aria-valuetext', show(at));
@@ -52,7 +59,10 @@ export function addSlider(parent: HTMLElement, { label, lo, hi, value, logarithm
   set(value);
   row.append(caption, shown, input);
   parent.append(row);
-  return { input, set };
+  const follow = (at: number) => {
+    if (performance.now() - touched > quiet) set(at);
+  };
+  return { input, set, follow };
 }
 
 export function addCheck(parent: HTMLElement, label: string, value: boolean, change: (on: boolean) => void): HTMLInputElement {

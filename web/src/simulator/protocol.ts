@@ -195,6 +195,8 @@ export interface Status {
   time_step: { used: number; bound: number; live_bound: number };
   strain: { stretch_min: number; stretch_max: number; inverted: number };
   strokes: number;
+  materials: SceneFacts['materials'];
+  gravity: [number, number, number];
   warnings: string[];
   clients: number;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { addCheck, addSlider, byId, make, throttled, type Slider } from './elements.ts';
 import type { Connection } from './connection.ts';
-import type { SceneFacts } from './protocol.ts';
+import type { SceneFacts, Status } from './protocol.ts';
 import type { ToolSettings } from './tool.ts';
 
 const millimetres = (metres: number) => `${(1000 * metres).toFixed(0)} mm`;
@@ -83,5 +83,13 @@ export class TissueOptions {
 
   showSpeed(speed: number): void {
     this.speed.set(speed);
+  }
+
+  /** As the tissue is now: undo and others change it, too. */
+  follow({ materials, gravity, speed }: Status): void {
+    this.young.follow(materials[0].young);
+    this.poisson.follow(materials[0].poisson);
+    this.gravity.follow(gravity.reduce((sum, x, i) => sum + x * this.down[i], 0) / this.down.reduce((sum, x) => sum + x * x, 0));
+    this.speed.follow(speed);
   }
 }

@@ -196,6 +196,7 @@ class Simulator {
   }
 
   private showStatus(status: Status): void {
+    this.tissueOptions.follow(status);
     this.status = status;
     const line = byId('state');
     line.textContent = `${this.scene?.title ?? ''} · ${describeState(status)}`;
