@@ -84,7 +84,6 @@ double uncut_gauge(const Problem& problem) {
 }
 
 void judge(const Problem& problem, const CutMesh& cut, Outcome& outcome) {
-    outcome.elements = static_cast<Index>(cut.mesh.tets.size());
     for (const Vec3& node : cut.mesh.nodes) {
         outcome.unknowns += is_inside(problem.held, node) ? 0 : 3;
     }
@@ -92,8 +91,10 @@ void judge(const Problem& problem, const CutMesh& cut, Outcome& outcome) {
     outcome.mass_error = -outcome.volume_lost;
 }
 
-/// Simulates the mesh that a method made by TLED.
-void hang(const Problem& problem, const CutMesh& cut, const TetMesh& before, Outcome& outcome) {
+/// Simulates the mesh that a method made by TLED; `surface_at` makes its surface of the displacements,
+/// [node].
+template <class Surface>
+void hang(const Problem& problem, const CutMesh& cut, const Surface& surface_at, Outcome& outcome) {
     judge(problem, cut, outcome);
     Result<Simulation> made = Simulation::create(make_setup(problem, cut.mesh));
     if (!made) {
@@ -102,9 +103,8 @@ void hang(const Problem& problem, const CutMesh& cut, const TetMesh& before, Out
     }
     outcome.step = made->time_step().used;
     outcome.step_ms = time_steps(*made);
-    const double at_most = longest_run * outcome.step; // s
-    const StepReport rest = made->settle(1e-4, at_most);
-    outcome.surface = surface_of(cut, before, displacement_of(*made));
+    const StepReport rest = made->settle(1e-4, longest_run * outcome.step);
+    outcome.surface = surface_at(displacement_of(*made));
     outcome.roughness = measure_roughness(*outcome.surface, problem.sheet);
     if (rest.status == Status::ok) {
         outcome.opening = gauge_of(problem, *outcome.surface) - uncut_gauge(problem);
@@ -114,17 +114,20 @@ void hang(const Problem& problem, const CutMesh& cut, const TetMesh& before, Out
     }
 }
 
+/// Of a mesh that has come from `before` by way of deleting and splitting.
+void hang_edited(const Problem& problem, const CutMesh& cut, const TetMesh& before, Outcome& outcome) {
+    hang(
+        problem, cut, [&](const std::vector<Vec3>& u) { return surface_of(cut, before, u); }, outcome);
+}
+
+/// Our own cut, while the body does not move; its weight pulls from then on.
 Simulation cut_at_rest(const Problem& problem, const TetMesh& mesh, const CutOptions& options, double& cut_ms,
                        CutReport& report) {
     Setup setup = make_setup(problem, mesh);
     setup.cut = options;
     Simulation simulation = must(Simulation::create(std::move(setup)));
-    const std::vector<Edge>& poses = problem.sheet.poses();
-    must(simulation.apply(MoveBlade{.to = poses.front()}));
-    // The body has not begun to move: one step sweeps each part of the way.
-    SetGravity none{};
-    must(simulation.apply(none));
-    for (const Edge& pose : poses) {
+    must(simulation.apply(SetGravity{})); // so that the body stays at rest: a step for each part of the way
+    for (const Edge& pose : problem.sheet.poses()) {
         must(simulation.apply(MoveBlade{.to = pose}));
         const StepReport swept = simulation.advance(simulation.time_step().used);
         cut_ms += 1e-3 * swept.cut.us.total();
@@ -235,7 +238,6 @@ Outcome cut_by_virtual_nodes(const Problem& problem, const CutOptions& options) 
                     .source = is_fraction ? "Resect" : "the paper"};
     CutReport report;
     Simulation simulation = cut_at_rest(problem, problem.mesh, options, outcome.cut_ms, report);
-    outcome.elements = static_cast<Index>(simulation.copies().node.size());
     for (const std::uint8_t fixed : simulation.nodes().fixed) {
         outcome.unknowns += fixed != 0 ? 0 : 3;
     }
@@ -257,7 +259,7 @@ Outcome cut_by_removal(const Problem& problem) {
     Timer timer;
     const CutMesh cut = remove_elements(problem.mesh, problem.sheet);
     outcome.cut_ms = timer.lap_ms();
-    hang(problem, cut, problem.mesh, outcome);
+    hang_edited(problem, cut, problem.mesh, outcome);
     return outcome;
 }
 
@@ -271,7 +273,7 @@ Outcome cut_along_faces(const Problem& problem, bool moves_nodes) {
     }
     const CutMesh cut = split_faces(mesh, problem.sheet);
     outcome.cut_ms = timer.lap_ms();
-    hang(problem, cut, mesh, outcome);
+    hang_edited(problem, cut, mesh, outcome);
     return outcome;
 }
 
@@ -284,27 +286,9 @@ Outcome cut_by_subdivision(const Problem& problem, bool moves_nodes) {
     }
     CutReport report;
     Simulation ours = cut_at_rest(problem, mesh, {}, outcome.cut_ms, report);
-    const Body body = ours.material();
-    CutMesh cut = drop_unused_nodes(body.material);
-    hang(problem, cut, body.material, outcome);
-    if (!outcome.surface) { return outcome; }
-    // What is cut is known to our own surface only: by its points, rows of the material's nodes.
-    const CutSurface labelled = surface_of(ours);
-    outcome.surface->is_cut = labelled.is_cut;
-    std::vector<Index> row_of(body.material.nodes.size(), -1);
-    for (std::size_t n = 0; n < cut.node_from.size(); ++n) {
-        row_of[row(cut.node_from[n])] = static_cast<Index>(n);
-    }
-    const Surface of = ours.surface();
-    outcome.surface->triangles.clear();
-    for (const auto& triangle : of.triangle) {
-        std::array<Index, 3>& made = outcome.surface->triangles.emplace_back();
-        for (std::size_t k = 0; k < 3; ++k) {
-            made[k] = row_of[row(of.point[row(triangle[k])])];
-        }
-    }
-    outcome.roughness = measure_roughness(*outcome.surface, problem.sheet);
-    if (outcome.opening) { outcome.opening = gauge_of(problem, *outcome.surface) - uncut_gauge(problem); }
+    const CutMesh cut = drop_unused_nodes(ours.material().material);
+    hang(
+        problem, cut, [&](const std::vector<Vec3>& u) { return surface_of(ours, cut, u); }, outcome);
     return outcome;
 }
 

@@ -37,7 +37,7 @@ Problem bow(Problem problem);
 struct Outcome {
     std::string method = {}, source = {};
     std::optional<CutSurface> surface = {};
-    Index elements = 0, unknowns = 0;
+    Index unknowns = 0;
     double volume_lost = 0, mass_error = 0; // shares
     double roughness = 0;                   // m
     std::optional<double> opening = {};     // m

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "base/index.hpp"
@@ -96,6 +97,19 @@ CutSurface surface_of(const CutMesh& cut, const TetMesh& before, const std::vect
         const Triangle was = {cut.node_from[row(face[0])], cut.node_from[row(face[1])],
                               cut.node_from[row(face[2])]};
         surface.is_cut.push_back(skin.count(sorted(was)) > 0 ? 0 : 1);
+    }
+    return surface;
+}
+
+CutSurface surface_of(Simulation& simulation, const CutMesh& cut, const std::vector<Vec3>& displacement) {
+    CutSurface surface = surface_of(simulation);
+    std::map<Index, std::size_t> row_of; // by the material's node
+    for (std::size_t n = 0; n < cut.node_from.size(); ++n) {
+        row_of[cut.node_from[n]] = n;
+    }
+    const std::span<const Index> point = simulation.surface().point;
+    for (std::size_t v = 0; v < surface.rest.size(); ++v) {
+        surface.now[v] = surface.rest[v] + displacement[row_of.at(point[v])];
     }
     return surface;
 }

@@ -19,6 +19,9 @@ struct CutSurface {
 CutSurface surface_of(resect::Simulation& simulation);
 /// Of a mesh whose nodes come from those of `before`: what was not on its boundary is cut.
 CutSurface surface_of(const CutMesh& cut, const TetMesh& before, const std::vector<Vec3>& displacement);
+/// Of the material of a simulation that was cut, simulated itself: `cut` is the material.
+CutSurface surface_of(resect::Simulation& simulation, const CutMesh& cut,
+                      const std::vector<Vec3>& displacement);
 
 resect::Result<void> write_surface_file(const std::string& path, const CutSurface& surface);
 
