@@ -2,12 +2,12 @@
 #include "lab/methods.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <numbers>
 
+#include "base/clock.hpp"
 #include "base/index.hpp"
 #include "base/vec.hpp"
 #include "lab/calculix.hpp"
@@ -23,19 +23,6 @@ namespace {
 constexpr double snapped = 0.25; // of a cell, that nodes are moved at most where a method moves them
 constexpr int steps_timed = 40, times_timed = 5; // the least of which counts
 constexpr double longest_run = 1e5;              // steps; who needs more to come to rest is not waited for
-
-class Timer {
-public:
-    double lap_ms() {
-        const auto now = std::chrono::steady_clock::now();
-        const std::chrono::duration<double, std::milli> passed = now - last_;
-        last_ = now;
-        return passed.count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 CutMesh uncut(const TetMesh& mesh) { return drop_unused_nodes(mesh); }
 
@@ -65,9 +52,9 @@ template <class Step>
 double time_step_ms(const Step& take_steps) {
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < times_timed; ++i) {
-        Timer timer;
+        Stopwatch watch;
         take_steps();
-        least = std::min(least, timer.lap_ms() / steps_timed);
+        least = std::min(least, 1e-3 * watch.lap() / steps_timed);
     }
     return least;
 }
@@ -137,6 +124,12 @@ Simulation cut_at_rest(const Problem& problem, const TetMesh& mesh, const CutOpt
     must(simulation.apply(LiftBlade{}));
     must(simulation.apply(SetGravity{problem.gravity}));
     return simulation;
+}
+
+/// The mesh that is cut: with nodes near the sheet moved onto it, or as it is.
+TetMesh prepare(const Problem& problem, bool moves_nodes) {
+    if (!moves_nodes) { return problem.mesh; }
+    return snap_nodes(problem.mesh, problem.sheet, snapped * problem.spacing, problem.bounds);
 }
 
 double mass_of(const Simulation& simulation) {
@@ -256,9 +249,9 @@ Outcome cut_by_virtual_nodes(const Problem& problem, const CutOptions& options) 
 
 Outcome cut_by_removal(const Problem& problem) {
     Outcome outcome{.method = "Element removal on TLED", .source = "Cotin 2000; SOFA today"};
-    Timer timer;
+    Stopwatch watch;
     const CutMesh cut = remove_elements(problem.mesh, problem.sheet);
-    outcome.cut_ms = timer.lap_ms();
+    outcome.cut_ms = 1e-3 * watch.lap();
     hang_edited(problem, cut, problem.mesh, outcome);
     return outcome;
 }
@@ -266,13 +259,10 @@ Outcome cut_by_removal(const Problem& problem) {
 Outcome cut_along_faces(const Problem& problem, bool moves_nodes) {
     Outcome outcome{.method = moves_nodes ? "Along faces, nodes moved, on TLED" : "Along faces, on TLED",
                     .source = moves_nodes ? "Nienhuys 2001" : "Nienhuys 2000"};
-    Timer timer;
-    TetMesh mesh = problem.mesh;
-    if (moves_nodes) {
-        mesh = snap_nodes(std::move(mesh), problem.sheet, snapped * problem.spacing, problem.bounds);
-    }
+    Stopwatch watch;
+    const TetMesh mesh = prepare(problem, moves_nodes);
     const CutMesh cut = split_faces(mesh, problem.sheet);
-    outcome.cut_ms = timer.lap_ms();
+    outcome.cut_ms = 1e-3 * watch.lap();
     hang_edited(problem, cut, mesh, outcome);
     return outcome;
 }
@@ -280,10 +270,7 @@ Outcome cut_along_faces(const Problem& problem, bool moves_nodes) {
 Outcome cut_by_subdivision(const Problem& problem, bool moves_nodes) {
     Outcome outcome{.method = moves_nodes ? "Subdivision, nodes moved, on TLED" : "Subdivision, on TLED",
                     .source = "Bielser 1999; Mor and Kanade 2000"};
-    TetMesh mesh = problem.mesh;
-    if (moves_nodes) {
-        mesh = snap_nodes(std::move(mesh), problem.sheet, snapped * problem.spacing, problem.bounds);
-    }
+    const TetMesh mesh = prepare(problem, moves_nodes);
     CutReport report;
     Simulation ours = cut_at_rest(problem, mesh, {}, outcome.cut_ms, report);
     const CutMesh cut = drop_unused_nodes(ours.material().material);
@@ -294,9 +281,9 @@ Outcome cut_by_subdivision(const Problem& problem, bool moves_nodes) {
 
 Outcome cut_along_faces_linear(const Problem& problem) {
     Outcome outcome{.method = "Along faces, linear, conjugate gradients", .source = "Nienhuys 2000"};
-    Timer timer;
+    Stopwatch watch;
     const CutMesh cut = split_faces(problem.mesh, problem.sheet);
-    outcome.cut_ms = timer.lap_ms();
+    outcome.cut_ms = 1e-3 * watch.lap();
     const std::vector<Vec3> before = solve_uncut(make_linear(problem, problem.mesh));
     const LinearBody body = make_linear(problem, cut.mesh);
     const Eigen::SparseMatrix<double> stiffness = assemble(body);
@@ -306,9 +293,9 @@ Outcome cut_along_faces_linear(const Problem& problem) {
         const Vec3& u = before[row(cut.node_from[n])];
         if (body.unknown[n] >= 0) { start.segment<3>(body.unknown[n]) << u[0], u[1], u[2]; }
     }
-    timer.lap_ms();
+    watch.lap();
     const Solution solution = solve_by_conjugate_gradients(stiffness, body.force, start);
-    outcome.step_ms = timer.lap_ms();
+    outcome.step_ms = 1e-3 * watch.lap();
     outcome.remark = fmt::format("{} iterations", solution.iterations);
     judge_linear(problem, cut, displacements(body, solution.u), before, outcome);
     return outcome;
@@ -318,16 +305,16 @@ Outcome cut_by_woodbury(const Problem& problem) {
     Outcome outcome{.method = "Removal, linear, precomputed inverse", .source = "Zhong 2005; Popescu 2005"};
     LinearBody body = make_linear(problem, problem.mesh);
     const std::vector<Vec3> before = solve_uncut(body);
-    Timer timer;
+    Stopwatch watch;
     PrecomputedInverse inverse(body);
-    const double precompute = timer.lap_ms();
+    const double precompute = 1e-3 * watch.lap();
     const Index far = find_far_node(problem);
     const Vec3 lift = {0, 0, 1e-3}; // m
     const double uncut_reaction = inverse.reaction(far, lift)[2];
     std::vector<std::uint8_t> is_gone(problem.mesh.tets.size(), 0);
     const std::vector<Index> crossed = find_crossed(problem.mesh, problem.sheet);
     Index kept = 0;
-    timer.lap_ms();
+    watch.lap();
     for (const Index tet : crossed) {
         if (inverse.remove(tet)) {
             drop_weight(body, tet);
@@ -336,9 +323,9 @@ Outcome cut_by_woodbury(const Problem& problem) {
             ++kept;
         }
     }
-    outcome.cut_ms = timer.lap_ms();
+    outcome.cut_ms = 1e-3 * watch.lap();
     const Eigen::VectorXd u = inverse.solve(body.force);
-    outcome.step_ms = timer.lap_ms();
+    outcome.step_ms = 1e-3 * watch.lap();
     const CutMesh cut = without(problem.mesh, is_gone);
     const std::vector<Vec3> moved = pick(displacements(body, u), cut);
     judge_linear(problem, cut, moved, before, outcome);
@@ -358,13 +345,13 @@ Outcome cut_by_tensor_mass(const Problem& problem) {
     const std::vector<Vec3> before = solve_uncut(body);
     TensorMass tissue(body, 20);
     std::vector<std::uint8_t> is_gone(problem.mesh.tets.size(), 0);
-    Timer timer;
+    Stopwatch watch;
     for (const Index tet : find_crossed(problem.mesh, problem.sheet)) {
         tissue.remove(tet);
         drop_weight(body, tet);
         is_gone[row(tet)] = 1;
     }
-    outcome.cut_ms = timer.lap_ms();
+    outcome.cut_ms = 1e-3 * watch.lap();
     outcome.step = 0.9 * tissue.stable_step();
     outcome.step_ms = time_step_ms([&] {
         for (int i = 0; i < steps_timed; ++i) {
