@@ -34,6 +34,8 @@ const qualities: [Quality, number][] = [['high', 1], ['low', 1], ['low', 0.75], 
 const slowFrame = 45;
 /** Judged after so many frames, or so long, ms. */
 const framesJudged = 12, longJudged = 900;
+/** Two seconds of frames, for tests. */
+const framesRemembered = 120;
 const slowMotion = 0.2;
 
 /** The view's own hand: nothing is the tool's. */
@@ -48,7 +50,8 @@ class Simulator {
   scene: SceneFacts | undefined;
   frame: Pick<Frame, 'frame' | 'message' | 'step' | 'vertices' | 'triangles' | 'revision'> | undefined;
   driving = false;
-  scriptMs = 0;
+  /** Of the last frames, ms. */
+  readonly scripts: number[] = [];
 
   private readonly settings: ToolSettings = { depth: 0.03, lean: 0, alongView: false, radius: 0.01, pin: false };
   private readonly tools: Record<ToolName, Tool>;
@@ -405,9 +408,9 @@ class Simulator {
       this.judge(now - this.lastDraw);
     }
     this.lastDraw = now;
-    const script = performance.now() - began + this.handled;
+    this.scripts.push(performance.now() - began + this.handled);
+    if (this.scripts.length > framesRemembered) this.scripts.shift();
     this.handled = 0;
-    this.scriptMs += 0.1 * (script - this.scriptMs);
   }
 }
 
@@ -459,7 +462,7 @@ function open(simulator: Simulator): object {
     get scene() { return simulator.scene; },
     get frame() { return simulator.frame; },
     get driving() { return simulator.driving; },
-    get scriptMs() { return simulator.scriptMs; },
+    get scripts() { return simulator.scripts; },
     get latency() { return simulator.latency; },
     get heading() { return simulator.stage.camera.getWorldDirection(new Vector3()).toArray(); },
     screenOf: (point: [number, number, number]) => simulator.stage.screenOf(new Vector3(...point)),
