@@ -208,7 +208,7 @@ Problem hang_block(const std::array<Index, 3>& cells, const Notch& notch) {
             .material = {.young = 3e4, .poisson = 0.35, .density = 1000},
             .held = {{-1, -1, -1}, {0, 1, 1}},
             .gravity = {9.81, 0, 0},
-            .sheet = flat_notch({mouth, 0, size[2]}, {mouth, 0, size[2] - notch.depth}, size[1]),
+            .sheet = flat_notch({mouth, 0, size[2]}, {mouth - notch.lean, 0, size[2] - notch.depth}, size[1]),
             .gauge = {Vec3{mouth - 0.02, 0.04, size[2]}, Vec3{mouth + 0.02, 0.04, size[2]}}};
 }
 
@@ -367,9 +367,10 @@ Outcome cut_by_tensor_mass(const Problem& problem) {
     return outcome;
 }
 
-std::optional<double> find_reference_opening(const std::array<Index, 3>& cells, double depth, bool quadratic,
+std::optional<double> find_reference_opening(const std::array<Index, 3>& cells, Notch notch, bool quadratic,
                                              const std::string& folder) {
-    const Problem problem = hang_block(cells, {.depth = depth, .jitter = 0});
+    notch.jitter = 0;
+    const Problem problem = hang_block(cells, notch);
     const auto gauge_after = [&](const CutMesh& cut) -> std::optional<double> {
         const std::optional<std::vector<Vec3>> u =
             solve_by_calculix({cut.mesh, problem.material, problem.held, problem.gravity, quadratic}, folder);

@@ -22,7 +22,8 @@ struct Problem {
 };
 
 struct Notch {
-    double depth = 0.05; // m
+    double depth = 0.05; // m, along z
+    double lean = 0;     // m by which the tip lies nearer to the held side than the mouth
     double jitter = 0.2; // cells by which nodes of the mesh are moved at most
     unsigned seed = 1;   // of that
 };
@@ -61,7 +62,8 @@ Outcome cut_by_woodbury(const Problem& problem);
 Outcome cut_by_tensor_mass(const Problem& problem);
 
 /// The opening that CalculiX finds on a conforming mesh of the hanging block, split where the sheet is, m.
-std::optional<double> find_reference_opening(const std::array<Index, 3>& cells, double depth, bool quadratic,
+/// The notch is upright or leans by its depth, and its ends are rows of nodes.
+std::optional<double> find_reference_opening(const std::array<Index, 3>& cells, Notch notch, bool quadratic,
                                              const std::string& folder);
 
 } // namespace lab
