@@ -44,11 +44,10 @@ double error_percent(double opening, double reference) { return 100 * (opening /
 /// The order p of an error h^p, by least squares of logarithms.
 double fit_order(const Series& errors) {
     const auto count = static_cast<Eigen::Index>(errors.x.size());
-    Eigen::MatrixX2d of(count, 2);
-    of.col(0).setOnes();
-    of.col(1) = Eigen::Map<const Eigen::ArrayXd>(errors.x.data(), count).log();
-    const Eigen::VectorXd logarithm = Eigen::Map<const Eigen::ArrayXd>(errors.y.data(), count).log();
-    return of.colPivHouseholderQr().solve(logarithm)[1];
+    const Eigen::ArrayXd x = Eigen::Map<const Eigen::ArrayXd>(errors.x.data(), count).log();
+    const Eigen::ArrayXd y = Eigen::Map<const Eigen::ArrayXd>(errors.y.data(), count).log();
+    const Eigen::ArrayXd apart = x - x.mean();
+    return (apart * y).sum() / apart.square().sum();
 }
 
 /// What is known of a notch by other means.
