@@ -7,6 +7,7 @@
 
 #include "bench/client.hpp"
 #include "bench/rubbish.hpp"
+#include "output_folder.hpp"
 #include "report.hpp"
 #include "samples.hpp"
 #include "server/serve.hpp"
@@ -97,9 +98,10 @@ Result<server::SceneEntry> write_large_scene(const std::string& folder) {
 } // namespace
 
 Result<Json> bench_soak(bool talk) {
-    const std::filesystem::path temporary = std::filesystem::temp_directory_path() / "resect_soak";
-    std::filesystem::create_directories(temporary);
-    const std::string folder = temporary.string();
+    std::error_code missing;
+    const std::string folder = (std::filesystem::temp_directory_path(missing) / "resect_soak").string();
+    if (missing) { return Error{"soak: there is no folder for temporary files; set TMPDIR to one"}; }
+    if (const Result<void> made = make_folder(folder); !made) { return made.error(); }
     const Result<server::SceneEntry> scene = write_large_scene(folder);
     if (!scene) { return scene.error(); }
     const Result<std::unique_ptr<server::Server>> server = server::Server::open(

@@ -9,6 +9,7 @@
 #include "lab/truth.hpp"
 #include "lab_paper.hpp"
 #include "options.hpp"
+#include "output_folder.hpp"
 #include "progress.hpp"
 
 namespace cli {
@@ -56,6 +57,7 @@ int lab(const LabOptions& options) {
     const std::string scenes = (fs::path(RESECT_WEB_FOLDER) / "../scenes").lexically_normal().string();
     const std::string page = (fs::path(RESECT_WEB_FOLDER) / "dist/report.html").string();
     if (!fs::exists(page)) { return refuse(fmt::format("lab: {} is missing; ./run builds it", page)); }
+    if (const Result<void> made = make_folder(options.out); !made) { return refuse(made.error().message); }
     const std::pair<const char*, std::function<Result<lab::Section>()>> parts[] = {
         {"scene 1: the cuboid", [&] { return reproduce_cuboid(scenes, options.quick); }},
         {"scene 2: what a cut costs",

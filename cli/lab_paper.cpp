@@ -76,11 +76,10 @@ lab::Plot plot_frames(const SceneFilm& film) {
     return {
         .name = "liver_frames",
         .title = "Scene 3: computing time of every frame",
-        .says =
-            fmt::format("All {} frames of a sixtieth of a second are counted, steps, cuts and surface "
-                        "included, on one thread: the slowest takes {:.1f} ms. The paper's rate of 40 Hz, "
-                        "its least, allows 25 ms.",
-                        film.time.size(), slowest),
+        .says = fmt::format(
+            "All {} frames of a sixtieth of a second are counted, steps, cuts and surface included, on one "
+            "thread: the slowest takes {:.1f} ms. The paper's rate of 40 Hz, its least, allows 25 ms.",
+            film.time.size(), slowest),
         .x_label = "time, s",
         .y_label = "computing time of a frame, ms",
         .log_y = true,
@@ -98,13 +97,12 @@ Result<lab::Section> reproduce_cuboid(const std::string& scenes, bool quick) {
         film_scene(scenes + "/cuboid.json", {0, 0.25, 0.45, 0.7, 1.5},
                    quick ? std::span<const std::string>(coarse) : std::span<const std::string>());
     if (!film) { return film.error(); }
-    lab::Strip strip{
-        .name = "cuboid",
-        .title = "Figure 3: a cuboid is cut while it bends",
-        .says = "The block bends from the start; the knife, a line without force, goes in from above, "
-                "and the incision grows open as the block goes on sagging.",
-        .stills = film->stills,
-        .camera = {{0.18, -0.32, 0.13}, {0.042, 0.03, 0.0}, 22}};
+    lab::Strip strip{.name = "cuboid",
+                     .title = "Figure 3: a cuboid is cut while it bends",
+                     .says = "The block bends from the start; the knife, a line without force, goes in from "
+                             "above, and the incision grows open as the block goes on sagging.",
+                     .stills = film->stills,
+                     .camera = {{0.18, -0.32, 0.13}, {0.042, 0.03, 0.0}, 22}};
     lab::Plot plot{.name = "cuboid_opening",
                    .title = "Scene 1: opening of the incision",
                    .says = "The widest distance between the two sides: it opens behind the knife, and swings "
@@ -114,8 +112,8 @@ Result<lab::Section> reproduce_cuboid(const std::string& scenes, bool quick) {
                    .series = {{"opening", film->time, film->opening_mm}}};
     return lab::Section{
         .title = "Scene 1: the cuboid",
-        .text = {"scenes/cuboid.json: 8 x 6 x 6 cm, E = 5 kPa, nu = 0.35 as in the paper; size, "
-                 "density and damping, which it does not give, are in the scene's description."},
+        .text = {"scenes/cuboid.json: 8 x 6 x 6 cm, E = 5 kPa, nu = 0.35 as in the paper; size, density and "
+                 "damping, which it does not give, are in the scene's description."},
         .parts = {std::move(strip), std::move(plot)}};
 }
 
@@ -154,23 +152,20 @@ lab::Section reproduce_cutting_cost(bool quick) {
     }
     const auto last = [](const lab::Series& series) { return series.y.back(); };
     total.series.push_back(std::move(topology));
-    total.says = fmt::format("With {:.0f} elements at once, copying takes {:.2f} of the time of computing "
-                             "the new elements anew, and {:.2f} "
-                             "of computing all anew: today the topology takes most of it.",
-                             total.series[0].x.back(), last(total.series[0]) / last(total.series[1]),
-                             last(total.series[0]) / last(total.series[2]));
-    parts.says =
-        fmt::format("Of the quantities alone, copying takes {:.1f} times less than computing anew: a tet's "
-                    "gradients are some fifty nanoseconds' work now, so the gain that the paper shows is "
-                    "real and small.",
-                    last(parts.series[1]) / last(parts.series[0]));
-    return {
-        .title = "Scene 2: what a cut costs",
-        .text =
-            {"A plane cuts a whole layer of a block in one go. Method 1 copies the precomputed quantities of "
-             "the cut element, method 2 computes them anew, once for the new elements and once for all; "
-             "topology is the same. The least of ten runs each."},
-        .parts = {std::move(total), std::move(parts)}};
+    total.says =
+        fmt::format("With {:.0f} elements at once, copying takes {:.2f} of the time of computing the new "
+                    "elements anew, and {:.2f} of computing all anew: today the topology takes most of it.",
+                    total.series[0].x.back(), last(total.series[0]) / last(total.series[1]),
+                    last(total.series[0]) / last(total.series[2]));
+    parts.says = fmt::format(
+        "Of the quantities alone, copying takes {:.1f} times less than computing anew: a tet's gradients are "
+        "some fifty nanoseconds' work now, so the gain that the paper shows is real and small.",
+        last(parts.series[1]) / last(parts.series[0]));
+    return {.title = "Scene 2: what a cut costs",
+            .text = {"A plane cuts a whole layer of a block in one go. Method 1 copies the precomputed "
+                     "quantities of the cut element, method 2 computes them anew, once for the new elements "
+                     "and once for all; topology is the same. The least of ten runs each."},
+            .parts = {std::move(total), std::move(parts)}};
 }
 
 Result<lab::Section> reproduce_liver(const std::string& scenes, bool quick) {
@@ -179,39 +174,35 @@ Result<lab::Section> reproduce_liver(const std::string& scenes, bool quick) {
         film_scene(scenes + "/liver.json", {0, 0.45, 0.65, 0.75, 0.9},
                    quick ? std::span<const std::string>(coarse) : std::span<const std::string>());
     if (!film) { return film.error(); }
-    lab::Strip strip{
-        .name = "liver",
-        .title = "Figure 5: a liver is cut, sags and comes apart",
-        .says = fmt::format("The liver has settled under its weight; the knife goes through beside the "
-                            "held lobe, and the cut part sags. {} pieces at the end.",
-                            film->pieces),
-        .stills = film->stills,
-        .camera = {{0.1, -0.85, 0.06}, {0.02, 0, -0.05}, 26}};
-    lab::Plot elements{
-        .name = "liver_elements",
-        .title = "Scene 3: number of elements",
-        .says = fmt::format(
-            "{} at first, {:.0f} at the end. Copies of elements are counted: one that holds two separate "
-            "parts of the organ has two from the start.",
-            film->elements_before, film->elements.back()),
-        .x_label = "time, s",
-        .y_label = "elements",
-        .series = {{"elements", film->time, film->elements}}};
+    lab::Strip strip{.name = "liver",
+                     .title = "Figure 5: a liver is cut, sags and comes apart",
+                     .says = fmt::format("The liver has settled under its weight; the knife goes through "
+                                         "beside the held lobe, and the cut part sags. {} pieces at the end.",
+                                         film->pieces),
+                     .stills = film->stills,
+                     .camera = {{0.1, -0.85, 0.06}, {0.02, 0, -0.05}, 26}};
+    lab::Plot elements{.name = "liver_elements",
+                       .title = "Scene 3: number of elements",
+                       .says =
+                           fmt::format("{} at first, {:.0f} at the end. Copies of elements are counted: one "
+                                       "that holds two separate parts of the organ has two from the start.",
+                                       film->elements_before, film->elements.back()),
+                       .x_label = "time, s",
+                       .y_label = "elements",
+                       .series = {{"elements", film->time, film->elements}}};
     lab::Plot steps{.name = "liver_steps",
                     .title = "Scene 3: computing time of a step",
                     .says = "Means over a frame, without the cuts themselves but with what follows them "
-                            "(packing of the copies, "
-                            "checks) and with whatever else the machine does.",
+                            "(packing of the copies, checks) and with whatever else the machine does.",
                     .x_label = "time, s",
                     .y_label = "computing time of a step, us",
                     .series = {{"step", film->time, film->step_us}}};
     return lab::Section{
         .title = "Scene 3: the liver",
-        .text = {fmt::format(
-            "scenes/liver.json: {} tets, E = 5 kPa, nu = 0.35 as in the paper, one thread. The paper "
-            "holds \"some of left most nodes\"; here the heavy right lobe is held, because a "
-            "liver this soft cannot hang by its thin end.",
-            film->elements_before)},
+        .text = {fmt::format("scenes/liver.json: {} tets, E = 5 kPa, nu = 0.35 as in the paper, one thread. "
+                             "The paper holds \"some of left most nodes\"; here the heavy right lobe is "
+                             "held, because a liver this soft cannot hang by its thin end.",
+                             film->elements_before)},
         .parts = {std::move(strip), plot_frames(*film), std::move(elements), std::move(steps)}};
 }
 
@@ -225,8 +216,7 @@ lab::Section list_paper_to_code() {
          "src/fem/node_update.cpp; tests/fem motion"},
         {"equation 2", "internal forces summed over elements", "src/fem/kernel_source.inc, fans and packing"},
         {"equation 3", "nodal forces from the second Piola-Kirchhoff stress",
-         "src/fem/law.cpp, element_forces.cpp; "
-         "tests/fem against a double textbook"},
+         "src/fem/law.cpp, element_forces.cpp; tests/fem against a double textbook"},
         {"equations 4, 5", "strain-displacement matrix from precomputed shape derivatives",
          "never formed: F from the precomputed gradients, force = -V P dN/dX (docs/method.md)"},
         {"figure 1", "virtual node algorithm",
@@ -250,8 +240,7 @@ lab::Section list_paper_to_code() {
         {"time step", "not given", "0.6 of the rest bound"},
         {"bulk modulus", "from E and nu", "K = E / (3 (1 - 2 nu)), W as in include/resect/setup.hpp"},
         {"mass of the copies", "not said; copies of everything",
-         "shares by material, mass kept "
-         "(weights: copy is the paper's rule)"},
+         "shares by material, mass kept (weights: copy is the paper's rule)"},
         {"a cut through a node or an edge", "not said", "exact integer decisions, docs/cutting.md"},
         {"the tip inside an element", "not said", "soft tip, theta = 0.25"},
         {"crushed and inverted elements", "not said", "the law is continued, docs/method.md"}};

@@ -8,13 +8,18 @@ namespace cli {
 
 using namespace resect;
 
-Result<OutputFolder> OutputFolder::make(const std::string& folder) {
+Result<void> make_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error || !std::filesystem::is_directory(folder)) {
         return Error{
-            fmt::format("{}: cannot be made a folder ({}); give another --out", folder, error.message())};
+            fmt::format("'{}': cannot be made a folder ({}); give another --out", folder, error.message())};
     }
+    return {};
+}
+
+Result<OutputFolder> OutputFolder::make(const std::string& folder) {
+    if (const Result<void> made = make_folder(folder); !made) { return made.error(); }
     return OutputFolder(folder);
 }
 

@@ -8,6 +8,9 @@
 
 namespace cli {
 
+/// Makes a folder where there is none.
+resect::Result<void> make_folder(const std::string& folder);
+
 /// The files of `resect run --out`: ParaView series of S and of the surface, and the last surface on its own.
 class OutputFolder {
 public:

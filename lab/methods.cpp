@@ -39,14 +39,6 @@ double gauge_of(const Problem& problem, const CutSurface& surface) {
     return measure_gauge(surface, problem.gauge[0], problem.gauge[1]);
 }
 
-std::vector<Vec3> displacement_of(const Simulation& simulation) {
-    std::vector<Vec3> u;
-    for (const Vec3f& moved : simulation.nodes().displacement) {
-        u.push_back(to_double(moved));
-    }
-    return u;
-}
-
 /// Milliseconds that a step takes, the least of some runs of many.
 template <class Step>
 double time_step_ms(const Step& take_steps) {
@@ -199,6 +191,14 @@ CutMesh without(const TetMesh& mesh, const std::vector<std::uint8_t>& is_gone) {
 
 } // namespace
 
+std::vector<Vec3> displacement_of(const Simulation& simulation) {
+    std::vector<Vec3> u;
+    for (const Vec3f& moved : simulation.nodes().displacement) {
+        u.push_back(to_double(moved));
+    }
+    return u;
+}
+
 Problem hang_block(const std::array<Index, 3>& cells, const Notch& notch) {
     constexpr Vec3 size = {0.10, 0.08, 0.10};
     constexpr double mouth = 0.05; // m, x of the sheet
@@ -331,8 +331,7 @@ Outcome cut_by_woodbury(const Problem& problem) {
     judge_linear(problem, cut, moved, before, outcome);
     outcome.remark = fmt::format(
         "inverse {:.1f} s, then {:.1f} ms for each of {} tets ({} kept, for a node would come free); {:.0e} "
-        "off a "
-        "fresh solution; a probe that lifts the far end by 1 mm feels {:.0f} mN, {:.0f} before the cut",
+        "off a fresh solution; a probe that lifts the far end by 1 mm feels {:.0f} mN, {:.0f} before the cut",
         1e-3 * precompute, outcome.cut_ms / static_cast<double>(crossed.size()), crossed.size() - row(kept),
         kept, largest_difference(moved, solve_uncut(make_linear(problem, cut.mesh))),
         1e3 * inverse.reaction(far, lift)[2], 1e3 * uncut_reaction);

@@ -21,6 +21,9 @@ struct Problem {
     std::array<Vec3, 2> gauge = {}; // two points of the skin on the two sides of the mouth, m
 };
 
+/// [node] m.
+std::vector<Vec3> displacement_of(const resect::Simulation& simulation);
+
 struct Notch {
     double depth = 0.05; // m, along z
     double lean = 0;     // m by which the tip lies nearer to the held side than the mouth

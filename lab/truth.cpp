@@ -88,15 +88,15 @@ Plot plot_upright(bool quick) {
     Plot plot{.name = "convergence", .title = "A notch half through: error of its opening"};
     plot_errors(plot, {{}, reference_opening(0.05), conforming_openings}, quick);
     const std::vector<double>& deeper = plot.series[3].y;
-    plot.says = fmt::format(
-        "All converge from the stiff side, observed orders {:.1f} (ours), {:.1f} (plain copies) and {:.1f} "
-        "(conforming). Ours is as stiff as if the cut were one element shorter, since both sides share the "
-        "nodes of the element that holds the front. A blade that goes one element deeper makes up for it, to "
-        "{:.0f} % on the coarsest mesh and {:.0f} % on the finest. A rule for the front that does so without "
-        "tearing deeper was not found: material that is one cannot move as two. A finer S near the incision "
-        "is the other cure.",
-        fit_order(plot.series[0]), fit_order(plot.series[2]), fit_order(plot.series.back()), deeper.front(),
-        deeper.back());
+    plot.says =
+        fmt::format("All converge from the stiff side, observed orders {:.1f} (ours), {:.1f} (plain copies) "
+                    "and {:.1f} (conforming). Ours is as stiff as if the cut were one element shorter, since "
+                    "both sides share the nodes of the element that holds the front. A blade that goes one "
+                    "element deeper makes up for it, to {:.0f} % on the coarsest mesh and {:.0f} % on the "
+                    "finest. A rule for the front that does so without tearing deeper was not found: "
+                    "material that is one cannot move as two. A finer S near the incision is the other cure.",
+                    fit_order(plot.series[0]), fit_order(plot.series[2]), fit_order(plot.series.back()),
+                    deeper.front(), deeper.back());
     return plot;
 }
 
@@ -116,10 +116,9 @@ Table list_shallow(bool quick) {
     const Index cells = quick ? 5 : 9;
     Table table{.name = "shallow",
                 .title = fmt::format("Shallow incisions, elements of {:.1f} mm", 100.0 / cells),
-                .says =
-                    "The soft tip draws shallow incisions to their depth and opens them more than a held tip "
-                    "does, but an incision of less than two elements stays nearly shut: a cut can bend "
-                    "only elements, and the front takes one.",
+                .says = "The soft tip draws shallow incisions to their depth and opens them more than a held "
+                        "tip does, but an incision of less than two elements stays nearly shut: a cut can "
+                        "bend only elements, and the front takes one.",
                 .columns = {"depth, mm", "depth, elements", "reference, mm", "tip held, mm", "soft tip, mm",
                             "soft tip against reference, %"}};
     for (const auto& [depth, reference] : reference_openings) {
@@ -159,10 +158,8 @@ Table list_invariants() {
         .name = "instant",
         .title = "The instant of a cut: relative change of what a cut must keep",
         .says = "By fractions a cut changes nothing beyond rounding; where elements are cut again it may "
-                "move a little "
-                "weight between copies that move unlike (docs/cutting.md, Weights). Plain copies add mass, "
-                "momentum and "
-                "energy with every cut: that is the paper's rule.",
+                "move a little weight between copies that move unlike (docs/cutting.md, Weights). Plain "
+                "copies add mass, momentum and energy with every cut: that is the paper's rule.",
         .columns = {"weights", "cut", "mass", "momentum", "spin", "kinetic energy", "elastic energy"}};
     for (const Weights weights : {Weights::fraction, Weights::copy}) {
         Setup setup{.body = {.elements = make_jittered_block({0.1, 0.1, 0.1}, {8, 8, 8}, 0.2, 1)},
@@ -229,8 +226,8 @@ Plot plot_steps(bool quick) {
     return {.name = "steps",
             .title = "The stable time step over many random cuts",
             .says = fmt::format(
-                "By virtual nodes no cut lowers the step. A mesh that is subdivided needs steps {:.0f} "
-                "times smaller after {} cuts, and some {:.0f} times as many elements.",
+                "By virtual nodes no cut lowers the step. A mesh that is subdivided needs steps {:.0f} times "
+                "smaller after {} cuts, and some {:.0f} times as many elements.",
                 lost, cuts, static_cast<double>(simulation.material().material.tets.size()) / 1296),
             .x_label = "cuts",
             .y_label = "stable step, us",
@@ -244,10 +241,8 @@ Section judge_cut_state(bool quick) {
     Section section{.title = "Is the cut state right?"};
     section.text = {
         "The block of the rivals, with a notch; its opening against ten-node tets on a conforming mesh of "
-        "9,600 "
-        "that is split where the blade went (CalculiX; the numbers are stored, lab/reference.hpp). Jittered "
-        "meshes "
-        "whose faces do not lie on the cut, means of two.",
+        "9,600 that is split where the blade went (CalculiX; the numbers are stored, lab/reference.hpp). "
+        "Jittered meshes whose faces do not lie on the cut, means of two.",
         "Cuts at a wall, and what is held there, are measured in docs/method.md (\"What is held\")."};
     section.parts = {plot_upright(quick), plot_leaning(quick), list_shallow(quick), list_invariants(),
                      plot_steps(quick)};

@@ -149,5 +149,6 @@ TEST_CASE("lab writes its report, with the files beside it") {
         CHECK(csv.find("inf") == std::string::npos);
     }
     CHECK(read_text(folder.file("lab/cuts/Along faces.vtp")).size() > 10000);
-    CHECK(is_refusal(run_resect("lab --quick --out /proc/lab")));
+    CHECK(is_refusal(run_resect("lab --out /proc/lab")));
+    CHECK(is_refusal(run_resect("lab --out ''")));
 }
