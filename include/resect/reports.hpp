@@ -98,7 +98,7 @@ struct Surface {
     double update_us = 0; // microseconds that this call spent on following cuts; 0: there were none
 };
 
-/// Simulation nodes.
+/// Simulation nodes, in an order of their own that suits the step; those that cuts add come last.
 struct Nodes {
     std::span<const Vec3f> rest = {}, displacement = {}, velocity = {}; // m, m/s
     std::span<const float> mass = {};                                   // kg

@@ -392,21 +392,33 @@ Problem weigh_copies(Cutter& cutter) {
     return {};
 }
 
-/// Nodes are the classes of pairs, by reference node and then by lowest pair; so they are the element nodes
-/// where each of these has one class.
+/// [element node] Where in the order it stands.
+std::vector<Index> rank_nodes(const Cutter& cutter) {
+    std::vector<Index> rank(cutter.body.elements.nodes.size());
+    std::iota(rank.begin(), rank.end(), 0);
+    for (std::size_t i = 0; i < cutter.setup.node_order.size(); ++i) {
+        rank[row(cutter.setup.node_order[i])] = static_cast<Index>(i);
+    }
+    return rank;
+}
+
+/// Nodes are the classes of pairs, by rank of their reference node and then by lowest pair; so they are the
+/// element nodes where each of these has one class.
 void make_nodes(Cutter& cutter) {
     SimulationMesh& mesh = cutter.mesh;
     const std::vector<Index> label = label_pairs(cutter);
+    const std::vector<Index> rank = rank_nodes(cutter);
     struct Pair {
-        Index reference, label, pair;
+        Index rank, label, pair;
         bool operator<(const Pair& other) const {
-            return std::tie(reference, label, pair) < std::tie(other.reference, other.label, other.pair);
+            return std::tie(rank, label, pair) < std::tie(other.rank, other.label, other.pair);
         }
     };
+    const auto reference_of = [&](Index pair) { return cutter.element(pair / 4)[face_of(pair)]; };
     std::vector<Pair> pairs;
     pairs.reserve(label.size());
     for (Index pair = 0; row(pair) < label.size(); ++pair) {
-        pairs.push_back({cutter.element(pair / 4)[face_of(pair)], label[row(pair)], pair});
+        pairs.push_back({rank[row(reference_of(pair))], label[row(pair)], pair});
     }
     std::sort(pairs.begin(), pairs.end());
     mesh.copy_node.grow(mesh.copy_element.size(), {});
@@ -419,7 +431,7 @@ void make_nodes(Cutter& cutter) {
             members.push_back(pairs[end].pair);
             mesh.copy_node.edit(row(pairs[end].pair / 4))[face_of(pairs[end].pair)] = node;
         }
-        mesh.node_reference.push_back(pairs[begin].reference);
+        mesh.node_reference.push_back(reference_of(pairs[begin].pair));
         mesh.node_mass.push_back(sum_mass(cutter, members));
         mesh.node_home.push_back({});
         mesh.node_held.push_back(0);

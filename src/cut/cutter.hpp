@@ -25,6 +25,7 @@ struct HeldRegion {
 struct CutterSetup {
     std::vector<double> element_mass = {}; // [element] kg, of a full element
     std::vector<HeldRegion> held = {};
+    std::vector<Index> node_order = {}; // rows of elements.nodes as S numbers them; empty: as they are
     CutOptions options = {};
 };
 

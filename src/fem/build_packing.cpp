@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "base/index.hpp"
 #include "base/reserve.hpp"
@@ -86,16 +87,25 @@ void split(std::span<PlacedCopy> places, Index parts, std::vector<std::vector<In
     }
 }
 
-/// Copies by part, in the order of their places, of one viscous time each.
-std::vector<std::vector<Index>> divide(const Elements& elements, const NodeArrays& nodes) {
+using CopiesByTime = std::map<float, std::vector<PlacedCopy>>; // viscous time, s
+
+CopiesByTime place_by_time(const Elements& elements, const NodeArrays& nodes) {
     std::map<float, std::vector<Index>> by_time;
     for (Index copy = 0; copy < elements.count; ++copy) {
         by_time[viscous_time_of(elements, copy)].push_back(copy);
     }
-    std::vector<std::vector<Index>> parts;
+    CopiesByTime places;
     for (const auto& [time, copies] : by_time) {
-        std::vector<PlacedCopy> places = place_copies(elements, nodes, copies);
-        const auto count = static_cast<Index>(copies.size()) / copies_a_part;
+        places[time] = place_copies(elements, nodes, copies);
+    }
+    return places;
+}
+
+/// Copies by part, in the order of their places, of one viscous time each. Sorts them, too.
+std::vector<std::vector<Index>> divide(CopiesByTime& copies) {
+    std::vector<std::vector<Index>> parts;
+    for (auto& [time, places] : copies) {
+        const auto count = static_cast<Index>(places.size()) / copies_a_part;
         split(places, std::clamp<Index>(count, 1, parts_at_most), parts);
     }
     return parts;
@@ -183,12 +193,43 @@ void pack_cell(Packing& packing, const Elements& elements, const NodeArrays& nod
     packing.parts[row(part)].cells[row(cell)].moved = 0;
 }
 
+std::vector<Index> order_nodes(const TetMesh& elements, std::span<const float> viscous_time) {
+    CopiesByTime places;
+    for (std::size_t element = 0; element < elements.tets.size(); ++element) {
+        Vec3f sum = {};
+        for (const Index node : elements.tets[element]) {
+            sum += to_float(elements.nodes[row(node)]);
+        }
+        places[viscous_time[element]].push_back({static_cast<Index>(element), sum});
+    }
+    const std::vector<std::vector<Index>> parts = divide(places);
+    std::vector<std::vector<Index>> parts_of(elements.nodes.size());
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        for (const Index element : parts[part]) {
+            for (const Index node : elements.tets[row(element)]) {
+                std::vector<Index>& of_node = parts_of[row(node)];
+                if (of_node.empty() || row(of_node.back()) != part) {
+                    of_node.push_back(static_cast<Index>(part));
+                }
+            }
+        }
+    }
+    std::vector<Index> order(elements.nodes.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](Index p, Index q) {
+        const std::vector<Index>&of_p = parts_of[row(p)], &of_q = parts_of[row(q)];
+        return of_p.size() != of_q.size() ? of_p.size() < of_q.size() : of_p < of_q;
+    });
+    return order;
+}
+
 Packing build_packing(const Elements& elements, const NodeArrays& nodes) {
     Packing packing;
     packing.seats.resize(row(elements.count));
     packing.quanta_a_metre = choose_quanta(elements, nodes);
     packing.first_slot.assign(nodes.rest.size(), -1);
-    const std::vector<std::vector<Index>> parts = divide(elements, nodes);
+    CopiesByTime places = place_by_time(elements, nodes);
+    const std::vector<std::vector<Index>> parts = divide(places);
     for (const std::vector<Index>& copies : parts) {
         Part part;
         part.viscous_time = viscous_time_of(elements, copies.front());

@@ -156,11 +156,14 @@ Result<std::unique_ptr<Engine>> build_engine(Setup setup) {
                          .damping = static_cast<float>(setup.damping),
                          .gravity = to_float(setup.gravity)};
 
+    std::vector<float> viscous_time; // [element]
     CutterSetup cutting{.held = mark_held(setup), .options = setup.cut};
     for (std::size_t element = 0; element < model.rest.size(); ++element) {
         cutting.element_mass.push_back(setup.materials[row(model.region[element])].density *
                                        model.rest[element].volume);
+        viscous_time.push_back(static_cast<float>(engine->tissue.viscous_time[row(model.region[element])]));
     }
+    cutting.node_order = order_nodes(model.elements, viscous_time);
     const std::vector<HeldRegion> held = cutting.held;
     Result<CutterPtr> cutter = make_cutter(setup.body, std::move(cutting));
     if (!cutter) { return cutter.error(); }

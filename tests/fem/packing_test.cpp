@@ -2,6 +2,7 @@
 #include <cstring>
 #include <doctest/doctest.h>
 #include <random>
+#include <utility>
 
 #include "body.hpp"
 #include "fem/choose_kernels.hpp"
@@ -72,6 +73,42 @@ TEST_CASE("a packing seats every copy once, in as many parts as the copies say")
     const TestBody body = make_shaken();
     CHECK(body.packing.parts.size() == 3); // 10 080 copies
     CHECK(find_packing_fault(body.packing, body.elements).empty());
+}
+
+TEST_CASE(
+    "nodes of one part, and those that the same parts share, follow one another in the order for packing") {
+    TetMesh mesh = kuhn_block({0.1, 0.12, 0.14}, {10, 12, 14});
+    const std::vector<Index> order = order_nodes(mesh, std::vector<float>(mesh.tets.size(), 1e-4F));
+    REQUIRE(order.size() == mesh.nodes.size());
+    std::vector<Index> rank(order.size(), -1);
+    std::vector<Vec3> nodes;
+    for (const Index node : order) {
+        CHECK(std::exchange(rank[row(node)], static_cast<Index>(nodes.size())) == -1);
+        nodes.push_back(mesh.nodes[row(node)]);
+    }
+    mesh.nodes = nodes;
+    for (Tet& tet : mesh.tets) {
+        for (Index& node : tet) {
+            node = rank[row(node)];
+        }
+    }
+    const TestBody body = make_test_body(mesh, Material{}, 1e-4);
+    const auto slots_of = [&](std::size_t node) {
+        std::vector<Index> slots;
+        for (Index s = body.packing.first_slot[node]; s >= 0; s = body.packing.next_slot[row(s)]) {
+            slots.push_back(s);
+        }
+        return slots;
+    };
+    std::size_t breaks = 0;
+    for (std::size_t node = 1; node < nodes.size(); ++node) {
+        std::vector<Index> before = slots_of(node - 1);
+        for (Index& slot : before) {
+            ++slot;
+        }
+        breaks += slots_of(node) != before ? 1U : 0U;
+    }
+    CHECK(breaks < 8); // three parts of their own, and what they share
 }
 
 TEST_CASE("copies that were seated anew resist as before") {

@@ -374,10 +374,10 @@ class Simulator {
     this.isDirty = true;
   }
 
-  /** `?quality=high` or `low` keeps one; otherwise slow frames step down. */
+  /** `?quality=high` or `low` keeps one; otherwise slow frames step down, and a processor begins below. */
   private chooseQuality(): void {
     const told = new URLSearchParams(location.search).get('quality');
-    if (told === 'low') this.qualityAt = 1;
+    if (told === 'low' || (!told && this.stage.isDrawnByProcessor)) this.qualityAt = 1;
     this.stage.setQuality(...qualities[this.qualityAt]);
     if (told) this.qualityAt = qualities.length - 1;
   }

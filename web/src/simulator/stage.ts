@@ -64,6 +64,13 @@ export class Stage {
     this.scene.add(this.body, this.floor, this.lamp, this.lamp.target);
   }
 
+  /** Without a graphics card, where good looks cost seconds. */
+  get isDrawnByProcessor(): boolean {
+    const context = this.renderer.getContext();
+    const names = context.getExtension('WEBGL_debug_renderer_info');
+    return names !== null && /swiftshader|llvmpipe|software/i.test(String(context.getParameter(names.UNMASKED_RENDERER_WEBGL)));
+  }
+
   /** Takes another body in view. */
   surround(lo: Vector3, hi: Vector3): void {
     this.bounds.center.copy(lo).add(hi).multiplyScalar(0.5);
