@@ -487,6 +487,11 @@ Problem build_cutter(Cutter& cutter) {
     label_pieces(cutter);
     cutter.crowd = crowd_unrefined << cutter.setup.options.refine;
     cutter.near_order = order_by_place(cutter.body.elements);
+    cutter.place_of_element.resize(cutter.near_order.size());
+    for (std::size_t i = 0; i < cutter.near_order.size(); ++i) {
+        cutter.place_of_element[row(cutter.near_order[i])] = static_cast<Index>(i);
+    }
+    find_block_groups(cutter);
     reserve_rows(cutter);
     cutter.body.material = {};
     cutter.body.element_of = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "cut/blade.hpp"
@@ -20,6 +21,17 @@ struct Track {
     bool on_grid = false;
 };
 
+/// What lies in a box, m.
+struct Extent {
+    Vec3 low = {}, high = {};
+    void add(const Vec3& p) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], p[axis]);
+            high[axis] = std::max(high[axis], p[axis]);
+        }
+    }
+};
+
 /// A face of a tet.
 struct TetFace {
     Index tet = 0;
@@ -33,6 +45,8 @@ struct Scratch {
     Marks placed = {};                           // nodes
     std::vector<std::uint8_t> node_outside = {}; // [node] where classified
     Marks classified = {};                       // nodes
+    std::vector<Extent> group_extent = {};       // [group of nodes] where boxed
+    Marks boxed = {};                            // groups of nodes
     std::vector<Index> near_copies = {};         // that may meet the blade
     std::vector<Index> copies_ahead = {};        // within BladeBox::ahead of it
     std::vector<Track> tracks = {};              // [vertex] where tracked
@@ -142,7 +156,9 @@ struct Cutter : CutterState {
     double grain = 0;                             // m, the largest of the material
     Index crowd = 0;                    // material tets of an element from which ends of edges are pulled far
     std::vector<Index> near_order = {}; // elements, neighbours close together (near.cpp)
-    Stage failing = Stage::none;        // after which an increment is made to fail
+    std::vector<Index> place_of_element = {};   // [element] where in near_order
+    std::vector<BlockGroups> block_groups = {}; // [block of near_order]; empty: to be found
+    Stage failing = Stage::none;                // after which an increment is made to fail
 
     SurfaceCache surface = {};
     Scratch scratch = {};

@@ -217,6 +217,7 @@ void write_class(Cutter& cutter, const Scratch::NodeClass& found, Index node, De
         if (cutter.scratch.hung.set(copy)) { delta.touched_copies.push_back(copy); }
         if (cutter.mesh.copy_node[row(copy)][corner] == node) { continue; }
         cutter.mesh.copy_node.edit(row(copy))[corner] = node;
+        note_new_node(cutter, copy);
         delta.corners.push_back({copy, static_cast<Index>(corner), node});
     }
     cutter.mesh.node_mass.edit(row(node)) = found.mass;

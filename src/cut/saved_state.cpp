@@ -18,9 +18,6 @@ void archive_blade(Archive& archive, Blade& blade) {
     archive.rows(blade.waiting);
     blade.pending.archive(archive);
     blade.sheet.archive(archive);
-    archive.value(blade.approach.moved);
-    archive.rows(blade.approach.safe_until);
-    archive.rows(blade.approach.block_safe_until);
 }
 
 template <class Archive>
@@ -34,7 +31,11 @@ void archive_state(Archive& archive, CutterState& state) {
 } // namespace
 
 std::shared_ptr<const CutterState> save_state(const Cutter& cutter) {
-    return std::make_shared<CutterState>(cutter);
+    auto state = std::make_shared<CutterState>(cutter);
+    for (Blade& blade : state->blades) {
+        blade.approach = {};
+    }
+    return state;
 }
 
 void restore_state(Cutter& cutter, const CutterState& saved) {
@@ -42,6 +43,7 @@ void restore_state(Cutter& cutter, const CutterState& saved) {
     static_cast<CutterState&>(cutter) = saved;
     cutter.revision = revision;
     cutter.surface = {};
+    cutter.block_groups = {};
 }
 
 std::size_t bytes_of(const CutterState& saved) {

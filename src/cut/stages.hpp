@@ -28,6 +28,10 @@ std::uint8_t sides_beyond(const BladeBox& box, const Vec3& point);
 std::vector<Index> order_by_place(const TetMesh& mesh);
 /// Lists the copies that may meet the blade.
 void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box);
+/// Which nodes the elements of each block hang on, from S.
+void find_block_groups(Cutter& cutter);
+/// A copy hangs on a node that it did not hang on before.
+void note_new_node(Cutter& cutter, Index copy);
 
 /// Bisects the longest edges of the material that the blade is about to meet until they are as fine as asked
 /// for.
