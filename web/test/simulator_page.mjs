@@ -54,6 +54,13 @@ async function cutGraspAndUndo(page) {
     await page.waitForTimeout(600);
     await page.screenshot({ path: join(out, `page_${view.toLowerCase()}.png`) });
   }
+  // Keys work on after a box was ticked.
+  await page.getByText('Clip', { exact: true }).click();
+  await page.getByText('Clip', { exact: true }).click();
+  await page.keyboard.press('s');
+  await until(page, 'resect.status.speed < 1');
+  await page.keyboard.press('s');
+  await until(page, 'resect.status.speed === 1');
 }
 
 /** With a tool in hand: the right button turns, the middle one moves. @param {import('playwright-core').Page} page */

@@ -293,9 +293,9 @@ class Simulator {
 
   private pressKey(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
-    if (target.closest('dialog, input:not([type="range"]), textarea')) return;
+    if (target.closest('dialog, input:not([type="range"], [type="checkbox"]), textarea')) return;
     // A button reached by keys is pressed by Space; one that was clicked is not meant any more.
-    if (event.key === ' ' && target.closest('button, summary')?.matches(':focus-visible')) return;
+    if (event.key === ' ' && target.closest('button, summary, [type="checkbox"]')?.matches(':focus-visible')) return;
     const key = event.key.toLowerCase();
     const isUndo = key === 'z' && (event.ctrlKey || event.metaKey);
     if (!isUndo && (event.ctrlKey || event.metaKey || event.altKey)) return;
