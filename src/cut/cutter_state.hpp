@@ -70,7 +70,7 @@ struct Scratch {
     bool is_runaway = false; // more bisections than an increment can want
     Marks walked = {};       // tets
     std::vector<Index> ring = {}, star = {};
-    std::vector<TetFace> torn = {};
+    std::vector<TetFace> torn = {}; // both sides of each face, one after the other
     struct Seed {
         Index vertex = 0, tet = 0;
         bool operator<(const Seed& other) const {

@@ -192,6 +192,30 @@ std::vector<Part> find_parts_of(const Cutter& cutter, const Floods& floods, Inde
     return parts;
 }
 
+/// Material around a node joins all copies that hang on it.
+bool share_a_node(const Tet& a, const Tet& b) {
+    return std::any_of(a.begin(), a.end(),
+                       [&b](Index node) { return std::find(b.begin(), b.end(), node) != b.end(); });
+}
+
+/// Copies on both sides of tears that may have fallen apart, in scratch.stack: where all sides of a tear hang
+/// on one node still, as they do about a front, nothing has.
+void find_parted(Cutter& cutter) {
+    const std::vector<TetFace>& torn = cutter.scratch.torn;
+    std::vector<Index>& parted = cutter.scratch.stack;
+    parted.clear();
+    for (std::size_t i = 0; i < torn.size(); i += 2) {
+        const Index a = cutter.material.tet(torn[i].tet).copy;
+        const Index b = cutter.material.tet(torn[i + 1].tet).copy;
+        if (a == b || share_a_node(cutter.mesh.copy_node[row(a)], cutter.mesh.copy_node[row(b)])) {
+            continue;
+        }
+        parted.push_back(a);
+        parted.push_back(b);
+    }
+    std::sort(parted.begin(), parted.end());
+}
+
 } // namespace
 
 void label_pieces(Cutter& cutter) {
@@ -218,14 +242,10 @@ void label_pieces(Cutter& cutter) {
 }
 
 void split_pieces(Cutter& cutter) {
+    find_parted(cutter);
+    if (cutter.scratch.stack.empty()) { return; }
     Floods floods(cutter);
-    std::vector<Index>& seeds = cutter.scratch.stack;
-    seeds.clear();
-    for (const TetFace& at : cutter.scratch.torn) {
-        seeds.push_back(cutter.material.tet(at.tet).copy);
-    }
-    std::sort(seeds.begin(), seeds.end());
-    for (const Index copy : seeds) {
+    for (const Index copy : cutter.scratch.stack) {
         floods.start_at(copy);
     }
     floods.run();

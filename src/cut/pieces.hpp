@@ -9,8 +9,8 @@ namespace resect {
 void label_pieces(Cutter& cutter);
 
 /// Brings the pieces up to date after an increment: those of the tets in scratch.torn may have fallen apart.
-/// Floods start on all sides of the tears and take turns, so that the work is that of the smaller side, or,
-/// where the tissue still holds, of going around the front.
+/// Floods start on the sides of the tears that no node joins and take turns, so that the work is that of the
+/// smaller side, or, where the tissue still holds, of going around the front.
 void split_pieces(Cutter& cutter);
 
 } // namespace resect
