@@ -451,10 +451,12 @@ void reserve_rows(Cutter& cutter) {
     for (Marks* marks : {&scratch.queued, &scratch.walked, &scratch.in_cluster}) {
         marks->grow(tets);
     }
-    for (Marks* marks : {&scratch.changed, &scratch.relisted, &scratch.hung, &scratch.reached}) {
+    for (Marks* marks : {&scratch.relisted, &scratch.hung, &scratch.reached}) {
         marks->grow(copies);
     }
     scratch.walked_pairs.grow(4 * copies);
+    scratch.touched_pairs.grow(4 * copies);
+    scratch.reweighed.grow(nodes);
     scratch.tracked.grow(vertices);
     scratch.classified.grow(nodes);
     scratch.tracks.resize(vertices);

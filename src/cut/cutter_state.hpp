@@ -83,12 +83,17 @@ struct Scratch {
     std::vector<Index> feet = {}; // vertices
 
     // derive
-    std::vector<Index> parted = {};  // copies
-    std::vector<Index> touched = {}; // 4 * copy + corner whose class may have changed
+    std::vector<Index> parted = {}; // copies
     std::vector<Index> elements = {};
-    Marks changed = {};      // copies whose fraction or weight changed
-    Marks walked_pairs = {}; // copy and corner
-    Marks hung = {};         // copies that hang on a touched node
+    /// A pair, 4 * copy + corner, whose class may have changed, and the node that it had.
+    struct Touched {
+        Index node = 0, pair = 0;
+        auto operator<=>(const Touched&) const = default;
+    };
+    std::vector<Touched> touched = {};
+    Marks touched_pairs = {}, walked_pairs = {};
+    Marks reweighed = {}; // nodes whose mass or hold may change though they do not fall apart
+    Marks hung = {};      // copies in Delta::touched_copies
     struct Part {
         std::size_t begin = 0, end = 0; // rows of part_tets
         double volume = 0;
@@ -99,8 +104,7 @@ struct Scratch {
     struct NodeClass {
         Index node = 0; // that its pairs had
         double mass = 0;
-        Index begin = 0, end = 0; // rows of pairs
-        bool changed = false;     // a member's weight or material did
+        std::size_t begin = 0, end = 0; // rows of pairs
     };
     std::vector<Index> pairs = {}; // 4 * copy + corner
     std::vector<NodeClass> classes = {};

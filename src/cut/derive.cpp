@@ -10,7 +10,8 @@
 namespace resect {
 namespace {
 
-void sort_unique(std::vector<Index>& rows) {
+template <class T>
+void sort_unique(std::vector<T>& rows) {
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 }
@@ -96,19 +97,44 @@ void part_copy(Cutter& cutter, Index copy, Delta& delta, CutReport& report) {
     }
 }
 
+void touch(Cutter& cutter, Index copy, std::size_t corner) {
+    cutter.scratch.touched.push_back({cutter.mesh.copy_node[row(copy)][corner], make_link(copy, corner)});
+}
+
+void note_touched(Cutter& cutter, Index copy, Delta& delta) {
+    if (cutter.scratch.hung.set(copy)) { delta.touched_copies.push_back(copy); }
+}
+
+/// Touches a corner of all copies of an element. Where they all hang on one node, it bears what it bore
+/// before, unless each copy weighs as much as the whole; what is held may change with the first cut.
+void touch_element(Cutter& cutter, Index element, std::size_t corner) {
+    const Index first = cutter.first_copy[row(element)];
+    const bool is_held = !cutter.held_elements.empty() && cutter.held_elements[row(element)] != 0;
+    bool stays = cutter.setup.options.weights != Weights::copy && !is_held;
+    for (Index c = first; c >= 0; c = cutter.sibling[row(c)]) {
+        touch(cutter, c, corner);
+        stays = stays && cutter.mesh.copy_node[row(c)][corner] == cutter.mesh.copy_node[row(first)][corner];
+    }
+    if (stays) { return; }
+    for (Index c = first; c >= 0; c = cutter.sibling[row(c)]) {
+        cutter.scratch.reweighed.set(cutter.mesh.copy_node[row(c)][corner]);
+    }
+}
+
 /// Weighs the copies of every element that has more of them now: all their corners are touched.
 void weigh_elements(Cutter& cutter, Delta& delta) {
     Scratch& scratch = cutter.scratch;
     sort_unique(scratch.elements);
-    scratch.changed.clear(cutter.mesh.copy_node.size());
+    scratch.reweighed.clear(cutter.mesh.node_mass.size());
+    scratch.hung.clear(cutter.mesh.copy_node.size());
     for (const Index element : scratch.elements) {
         weigh_element(cutter, element);
         for (Index c = cutter.first_copy[row(element)]; c >= 0; c = cutter.sibling[row(c)]) {
-            scratch.changed.set(c);
             delta.weighed.push_back(c);
-            for (std::size_t corner = 0; corner < 4; ++corner) {
-                scratch.touched.push_back(make_link(c, corner));
-            }
+            note_touched(cutter, c, delta);
+        }
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            touch_element(cutter, element, corner);
         }
     }
     std::sort(delta.weighed.begin(), delta.weighed.end());
@@ -121,7 +147,7 @@ void touch_torn_corners(Cutter& cutter) {
         if (tet.element_face[at.face] < 0) { continue; }
         for (std::size_t corner = 0; corner < 4; ++corner) {
             const bool is_on_face = corner != std::size_t(tet.element_face[at.face]);
-            if (is_on_face) { cutter.scratch.touched.push_back(make_link(tet.copy, corner)); }
+            if (is_on_face) { touch(cutter, tet.copy, corner); }
         }
     }
 }
@@ -159,32 +185,48 @@ std::size_t place_of(const Tet& tet, Index node) {
     return (tet[1] == node ? 1U : 0U) + (tet[2] == node ? 2U : 0U) + (tet[3] == node ? 3U : 0U);
 }
 
-/// The class of a (copy, corner): the pairs that material faces around its node join to it. They all have
-/// that node still, since cuts only part classes.
-void walk_class(Cutter& cutter, Index copy, std::size_t corner) {
+/// Walks the pairs of (copy, corner) that material faces around a node join to one of them, into
+/// scratch.pairs, until `wanted` touched ones have been met. They all have that node still, since cuts only
+/// part classes. Returns how many touched ones it met.
+std::size_t walk_pairs(Cutter& cutter, const Scratch::Touched& seed, std::size_t wanted) {
     Scratch& scratch = cutter.scratch;
-    Scratch::NodeClass found = {.node = cutter.mesh.copy_node[row(copy)][corner],
-                                .mass = 0,
-                                .begin = static_cast<Index>(scratch.pairs.size()),
-                                .end = 0,
-                                .changed = false};
-    scratch.pairs.push_back(make_link(copy, corner));
-    for (std::size_t next = row(found.begin); next < scratch.pairs.size(); ++next) {
+    std::size_t met = 1;
+    std::size_t next = scratch.pairs.size();
+    scratch.pairs.push_back(seed.pair);
+    for (; next < scratch.pairs.size() && met < wanted; ++next) {
         const Index at = scratch.pairs[next] / 4;
         const std::size_t own_corner = face_of(scratch.pairs[next]);
-        found.changed = found.changed || scratch.changed.has(at);
         for (std::size_t face = 0; face < 4; ++face) {
             if (face == own_corner) { continue; }
             each_beside(cutter, at, face, [&](Index beside) {
-                const Index pair =
-                    make_link(beside, place_of(cutter.mesh.copy_node[row(beside)], found.node));
-                if (scratch.walked_pairs.set(pair)) { scratch.pairs.push_back(pair); }
+                const Index pair = make_link(beside, place_of(cutter.mesh.copy_node[row(beside)], seed.node));
+                if (!scratch.walked_pairs.set(pair)) { return; }
+                scratch.pairs.push_back(pair);
+                met += scratch.touched_pairs.has(pair) ? 1U : 0U;
             });
         }
     }
-    found.end = static_cast<Index>(scratch.pairs.size());
-    found.mass = sum_mass(cutter, std::span(scratch.pairs).subspan(row(found.begin)));
-    scratch.classes.push_back(found);
+    return met;
+}
+
+/// The classes that a node falls into, by the pairs around it that were touched; none if they all hang
+/// together still, and bear the same.
+void walk_classes_of(Cutter& cutter, std::span<const Scratch::Touched> touched) {
+    Scratch& scratch = cutter.scratch;
+    const Index node = touched.front().node;
+    bool stays = !scratch.reweighed.has(node);
+    for (const Scratch::Touched& seed : touched) {
+        if (!scratch.walked_pairs.set(seed.pair)) { continue; }
+        const std::size_t begin = scratch.pairs.size();
+        const std::size_t met = walk_pairs(cutter, seed, stays ? touched.size() : SIZE_MAX);
+        if (stays && met == touched.size()) {
+            scratch.pairs.resize(begin);
+            return;
+        }
+        stays = false;
+        const double mass = sum_mass(cutter, std::span(scratch.pairs).subspan(begin));
+        scratch.classes.push_back({node, mass, begin, scratch.pairs.size()});
+    }
 }
 
 void walk_classes(Cutter& cutter) {
@@ -193,9 +235,17 @@ void walk_classes(Cutter& cutter) {
     scratch.pairs.clear();
     scratch.classes.clear();
     scratch.walked_pairs.clear(4 * copies);
+    scratch.touched_pairs.clear(4 * copies);
     sort_unique(scratch.touched);
-    for (const Index pair : scratch.touched) {
-        if (scratch.walked_pairs.set(pair)) { walk_class(cutter, pair / 4, face_of(pair)); }
+    for (const Scratch::Touched& touched : scratch.touched) {
+        scratch.touched_pairs.set(touched.pair);
+    }
+    const std::span<const Scratch::Touched> all = scratch.touched;
+    for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+        while (end < all.size() && all[end].node == all[begin].node) {
+            ++end;
+        }
+        walk_classes_of(cutter, all.subspan(begin, end - begin));
     }
 }
 
@@ -209,12 +259,11 @@ Index append_node(Cutter& cutter, Index source) {
 }
 
 void write_class(Cutter& cutter, const Scratch::NodeClass& found, Index node, Delta& delta) {
-    const auto pairs =
-        std::span(cutter.scratch.pairs).subspan(row(found.begin), row(found.end - found.begin));
+    const auto pairs = std::span(cutter.scratch.pairs).subspan(found.begin, found.end - found.begin);
     for (const Index pair : pairs) {
         const Index copy = pair / 4;
         const std::size_t corner = face_of(pair);
-        if (cutter.scratch.hung.set(copy)) { delta.touched_copies.push_back(copy); }
+        note_touched(cutter, copy, delta);
         if (cutter.mesh.copy_node[row(copy)][corner] == node) { continue; }
         cutter.mesh.copy_node.edit(row(copy))[corner] = node;
         note_new_node(cutter, copy);
@@ -228,15 +277,12 @@ void write_class(Cutter& cutter, const Scratch::NodeClass& found, Index node, De
 /// The heaviest of the classes that a node fell into keeps the node, every other gets a new one.
 void assign_nodes(Cutter& cutter, Delta& delta, CutReport& report) {
     std::vector<Scratch::NodeClass>& classes = cutter.scratch.classes;
-    cutter.scratch.hung.clear(cutter.mesh.copy_node.size());
     std::sort(classes.begin(), classes.end(), [](const Scratch::NodeClass& a, const Scratch::NodeClass& b) {
         if (a.node != b.node) { return a.node < b.node; }
         return a.mass != b.mass ? a.mass > b.mass : a.begin < b.begin;
     });
     for (std::size_t i = 0; i < classes.size(); ++i) {
         const bool keeps = i == 0 || classes[i - 1].node != classes[i].node;
-        const bool alone = keeps && (i + 1 == classes.size() || classes[i + 1].node != classes[i].node);
-        if (alone && !classes[i].changed) { continue; }
         Index node = classes[i].node;
         if (!keeps) {
             node = append_node(cutter, classes[i].node);

@@ -42,7 +42,7 @@ struct Delta {
     std::vector<Corner> corners;
     std::vector<Index> weighed;        // copies, old and new, whose weight changed
     std::vector<Index> touched_nodes;  // old and new, whose mass, home or hold changed
-    std::vector<Index> touched_copies; // that hang on those, each once
+    std::vector<Index> touched_copies; // weighed, or that hang on those, each once
 
     void clear() {
         copies.clear();

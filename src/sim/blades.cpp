@@ -96,7 +96,7 @@ void apply_delta(Engine& engine, CutReport& report) {
 void sweep_one(Engine& engine, Index blade, const Edge& to, bool first, CutReport& report) {
     const std::vector<Vec3f>& before = first ? engine.swept : engine.nodes.displacement;
     sweep_blade(*engine.cutter, blade, to, before, engine.nodes.displacement, engine.delta, report);
-    if (engine.delta.touched_nodes.empty()) { return; }
+    if (engine.delta.weighed.empty() && engine.delta.touched_nodes.empty()) { return; }
     // With plain copies a cut adds energy out of nothing; the accounts of work and motion take it over.
     const bool adds_energy = engine.model.weights == Weights::copy;
     const double elastic = adds_energy ? elastic_energy(engine.elements, engine.nodes.displacement) : 0;
