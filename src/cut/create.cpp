@@ -455,7 +455,6 @@ void reserve_rows(Cutter& cutter) {
         marks->grow(copies);
     }
     scratch.walked_pairs.grow(4 * copies);
-    scratch.touched_pairs.grow(4 * copies);
     scratch.reweighed.grow(nodes);
     scratch.tracked.grow(vertices);
     scratch.classified.grow(nodes);

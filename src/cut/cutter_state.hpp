@@ -91,7 +91,7 @@ struct Scratch {
         auto operator<=>(const Touched&) const = default;
     };
     std::vector<Touched> touched = {};
-    Marks touched_pairs = {}, walked_pairs = {};
+    Marks walked_pairs = {};
     Marks reweighed = {}; // nodes whose mass or hold may change though they do not fall apart
     Marks hung = {};      // copies in Delta::touched_copies
     struct Part {

@@ -186,27 +186,23 @@ std::size_t place_of(const Tet& tet, Index node) {
 }
 
 /// Walks the pairs of (copy, corner) that material faces around a node join to one of them, into
-/// scratch.pairs, until `wanted` touched ones have been met. They all have that node still, since cuts only
-/// part classes. Returns how many touched ones it met.
-std::size_t walk_pairs(Cutter& cutter, const Scratch::Touched& seed, std::size_t wanted) {
+/// scratch.pairs, until `is_enough`. They all have that node still, since cuts only part classes.
+template <class IsEnough>
+void walk_pairs(Cutter& cutter, const Scratch::Touched& seed, IsEnough is_enough) {
     Scratch& scratch = cutter.scratch;
-    std::size_t met = 1;
     std::size_t next = scratch.pairs.size();
     scratch.pairs.push_back(seed.pair);
-    for (; next < scratch.pairs.size() && met < wanted; ++next) {
+    for (; next < scratch.pairs.size() && !is_enough(); ++next) {
         const Index at = scratch.pairs[next] / 4;
         const std::size_t own_corner = face_of(scratch.pairs[next]);
         for (std::size_t face = 0; face < 4; ++face) {
             if (face == own_corner) { continue; }
             each_beside(cutter, at, face, [&](Index beside) {
                 const Index pair = make_link(beside, place_of(cutter.mesh.copy_node[row(beside)], seed.node));
-                if (!scratch.walked_pairs.set(pair)) { return; }
-                scratch.pairs.push_back(pair);
-                met += scratch.touched_pairs.has(pair) ? 1U : 0U;
+                if (scratch.walked_pairs.set(pair)) { scratch.pairs.push_back(pair); }
             });
         }
     }
-    return met;
 }
 
 /// The classes that a node falls into, by the pairs around it that were touched; none if they all hang
@@ -215,15 +211,22 @@ void walk_classes_of(Cutter& cutter, std::span<const Scratch::Touched> touched) 
     Scratch& scratch = cutter.scratch;
     const Index node = touched.front().node;
     bool stays = !scratch.reweighed.has(node);
+    std::size_t met = 0;
+    const auto are_all_met = [&] {
+        while (met < touched.size() && scratch.walked_pairs.has(touched[met].pair)) {
+            ++met;
+        }
+        return met == touched.size();
+    };
     for (const Scratch::Touched& seed : touched) {
         if (!scratch.walked_pairs.set(seed.pair)) { continue; }
         const std::size_t begin = scratch.pairs.size();
-        const std::size_t met = walk_pairs(cutter, seed, stays ? touched.size() : SIZE_MAX);
-        if (stays && met == touched.size()) {
+        walk_pairs(cutter, seed, [&] { return stays && are_all_met(); });
+        stays = stays && are_all_met();
+        if (stays) {
             scratch.pairs.resize(begin);
             return;
         }
-        stays = false;
         const double mass = sum_mass(cutter, std::span(scratch.pairs).subspan(begin));
         scratch.classes.push_back({node, mass, begin, scratch.pairs.size()});
     }
@@ -231,15 +234,10 @@ void walk_classes_of(Cutter& cutter, std::span<const Scratch::Touched> touched) 
 
 void walk_classes(Cutter& cutter) {
     Scratch& scratch = cutter.scratch;
-    const std::size_t copies = cutter.mesh.copy_node.size();
     scratch.pairs.clear();
     scratch.classes.clear();
-    scratch.walked_pairs.clear(4 * copies);
-    scratch.touched_pairs.clear(4 * copies);
+    scratch.walked_pairs.clear(4 * cutter.mesh.copy_node.size());
     sort_unique(scratch.touched);
-    for (const Scratch::Touched& touched : scratch.touched) {
-        scratch.touched_pairs.set(touched.pair);
-    }
     const std::span<const Scratch::Touched> all = scratch.touched;
     for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
         while (end < all.size() && all[end].node == all[begin].node) {

@@ -37,17 +37,7 @@ Index append_between(MaterialMesh& mesh, Index u, Index w, double t) {
 } // namespace
 
 void walk_star(const MaterialMesh& mesh, Index vertex, Index seed, Marks& marks, std::vector<Index>& star) {
-    std::size_t next = star.size();
-    marks.set(seed);
-    star.push_back(seed);
-    for (; next < star.size(); ++next) {
-        const MaterialTet& tet = mesh.tet(star[next]);
-        for (std::size_t k = 0; k < 4; ++k) {
-            if (tet.vertex[k] == vertex || tet.link[k] < 0) { continue; }
-            const Index other = tet_of(tet.link[k]);
-            if (marks.set(other)) { star.push_back(other); }
-        }
-    }
+    walk_star_until(mesh, vertex, seed, marks, star, [] { return false; });
 }
 
 bool find_ring(const MaterialMesh& mesh, const MaterialEdge& edge, Marks& marks, std::vector<Index>& ring) {

@@ -43,8 +43,25 @@ struct MaterialMesh {
     const Vec3& at(const MaterialTet& tet, std::size_t corner) const { return rest[row(tet.vertex[corner])]; }
 };
 
-/// The tets around `vertex` that links join to `seed`, through faces that contain the vertex. Appended to
-/// `star` and marked; marks that are there already are walls.
+/// The tets around `vertex` that links join to `seed`, through faces that contain the vertex, until
+/// `is_enough`. Appended to `star` and marked; marks that are there already are walls.
+template <class IsEnough>
+void walk_star_until(const MaterialMesh& mesh, Index vertex, Index seed, Marks& marks,
+                     std::vector<Index>& star, IsEnough is_enough) {
+    std::size_t next = star.size();
+    marks.set(seed);
+    star.push_back(seed);
+    for (; next < star.size() && !is_enough(); ++next) {
+        const MaterialTet& tet = mesh.tet(star[next]);
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (tet.vertex[k] == vertex || tet.link[k] < 0) { continue; }
+            const Index other = tet_of(tet.link[k]);
+            if (marks.set(other)) { star.push_back(other); }
+        }
+    }
+}
+
+/// All of them.
 void walk_star(const MaterialMesh& mesh, Index vertex, Index seed, Marks& marks, std::vector<Index>& star);
 
 /// An edge, and a tet around it.

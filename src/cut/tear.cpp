@@ -190,21 +190,26 @@ void tear_flat_clusters(Cutter& cutter, const Blade& blade, CutReport& report) {
     }
 }
 
-/// A star that fell apart: the part of the first seed keeps the vertex, every other part gets its own.
+/// Where a star fell apart, the part of the first seed keeps the vertex, every other part gets its own.
 void part_star(Cutter& cutter, std::span<const Scratch::Seed> seeds) {
     Scratch& scratch = cutter.scratch;
     const Index vertex = seeds.front().vertex;
     cutter.material.on_cut.edit(row(vertex)) = 1;
+    cutter.material.any_tet.edit(row(vertex)) = seeds.front().tet;
     scratch.walked.clear(cutter.material.tets.size());
-    for (std::size_t i = 0; i < seeds.size(); ++i) {
-        if (scratch.walked.has(seeds[i].tet)) { continue; }
-        scratch.star.clear();
-        walk_star(cutter.material, vertex, seeds[i].tet, scratch.walked, scratch.star);
-        if (i == 0) {
-            cutter.material.any_tet.edit(row(vertex)) = seeds[i].tet;
-        } else {
-            detach_star(cutter, vertex, scratch.star);
+    std::size_t met = 0;
+    const auto are_all_met = [&] {
+        while (met < seeds.size() && scratch.walked.has(seeds[met].tet)) {
+            ++met;
         }
+        return met == seeds.size();
+    };
+    scratch.star.clear();
+    walk_star_until(cutter.material, vertex, seeds.front().tet, scratch.walked, scratch.star, are_all_met);
+    while (!are_all_met()) {
+        scratch.star.clear();
+        walk_star(cutter.material, vertex, seeds[met].tet, scratch.walked, scratch.star);
+        detach_star(cutter, vertex, scratch.star);
     }
 }
 
