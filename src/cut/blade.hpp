@@ -7,6 +7,7 @@
 
 #include "base/vec.hpp"
 #include "cut/edge_map.hpp"
+#include "cut/near.hpp"
 #include "cut/rows.hpp"
 
 namespace resect {
@@ -47,22 +48,6 @@ struct SheetMark {
     Index stroke = 0;
     double expires = 0; // travel of the blade, m, after which it counts no more
     Vec3 normal = {};   // of the sheet, at rest
-};
-
-/// Groups of nodes that the elements of a block hang on (near.cpp).
-struct BlockGroups {
-    std::array<Index, 15> group = {};
-    std::uint8_t count = 0;
-    bool is_mixed = false; // and others
-};
-
-/// How long elements are too far from the blade to be cut (near.cpp). Not part of the state: it can be found
-/// anew at any time.
-struct Approach {
-    double moved = 0; // m, bound on the motion of blade and tissue towards each other so far
-    std::vector<double> safe_until = {}; // [place in near_order] value of `moved` up to which it cannot meet
-    std::vector<double> block_safe_until = {}; // the least of each block of places
-    std::vector<std::uint8_t> is_open = {};    // [block] 1: its elements are looked at one by one
 };
 
 /// A blade and its stroke, which lasts from placing to lifting, and longer if a blade takes it over.

@@ -458,10 +458,8 @@ void reserve_rows(Cutter& cutter) {
     scratch.reweighed.grow(nodes);
     scratch.tracked.grow(vertices);
     scratch.classified.grow(nodes);
-    scratch.tracks.resize(vertices);
     scratch.node_outside.resize(nodes);
-    scratch.place.resize(nodes);
-    scratch.placed.grow(nodes);
+    scratch.tracks.resize(vertices);
     scratch.flood_of.resize(copies);
     scratch.next_flooded.resize(copies);
 }
@@ -487,12 +485,7 @@ Problem build_cutter(Cutter& cutter) {
     cutter.pieces.of_copy.grow(cutter.mesh.copy_node.size(), -1);
     label_pieces(cutter);
     cutter.crowd = crowd_unrefined << cutter.setup.options.refine;
-    cutter.near_order = order_by_place(cutter.body.elements);
-    cutter.place_of_element.resize(cutter.near_order.size());
-    for (std::size_t i = 0; i < cutter.near_order.size(); ++i) {
-        cutter.place_of_element[row(cutter.near_order[i])] = static_cast<Index>(i);
-    }
-    find_block_groups(cutter);
+    index_by_place(cutter);
     reserve_rows(cutter);
     cutter.body.material = {};
     cutter.body.element_of = {};

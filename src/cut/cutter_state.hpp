@@ -21,17 +21,6 @@ struct Track {
     bool on_grid = false;
 };
 
-/// What lies in a box, m.
-struct Extent {
-    Vec3 low = {}, high = {};
-    void add(const Vec3& p) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], p[axis]);
-            high[axis] = std::max(high[axis], p[axis]);
-        }
-    }
-};
-
 /// A face of a tet.
 struct TetFace {
     Index tet = 0;
@@ -41,12 +30,8 @@ struct TetFace {
 /// What one increment works with; kept only so that nothing is allocated again.
 struct Scratch {
     // detect
-    std::vector<Vec3> place = {};                // [node] where placed, in the blade's frame
-    Marks placed = {};                           // nodes
     std::vector<std::uint8_t> node_outside = {}; // [node] where classified
     Marks classified = {};                       // nodes
-    std::vector<Extent> group_extent = {};       // [group of nodes] where boxed
-    Marks boxed = {};                            // groups of nodes
     std::vector<Index> near_copies = {};         // that may meet the blade
     std::vector<Index> copies_ahead = {};        // within BladeBox::ahead of it
     std::vector<Track> tracks = {};              // [vertex] where tracked
@@ -88,7 +73,10 @@ struct Scratch {
     /// A pair, 4 * copy + corner, whose class may have changed, and the node that it had.
     struct Touched {
         Index node = 0, pair = 0;
-        auto operator<=>(const Touched&) const = default;
+        bool operator==(const Touched&) const = default;
+        bool operator<(const Touched& other) const {
+            return node != other.node ? node < other.node : pair < other.pair;
+        }
     };
     std::vector<Touched> touched = {};
     Marks walked_pairs = {};
@@ -158,12 +146,10 @@ struct Cutter : CutterState {
     double mean_volume = 0;                       // m^3, of an element
     double unit = 1;                              // m, of the integer grid
     double grain = 0;                             // m, the largest of the material
-    Index crowd = 0;                    // material tets of an element from which ends of edges are pulled far
-    std::vector<Index> near_order = {}; // elements, neighbours close together (near.cpp)
-    std::vector<Index> place_of_element = {};   // [element] where in near_order
-    std::vector<BlockGroups> block_groups = {}; // [block of near_order]; empty: to be found
-    Stage failing = Stage::none;                // after which an increment is made to fail
+    Index crowd = 0;             // material tets of an element from which ends of edges are pulled far
+    Stage failing = Stage::none; // after which an increment is made to fail
 
+    NearIndex near = {};
     SurfaceCache surface = {};
     Scratch scratch = {};
     Tally tally = {};
@@ -174,6 +160,11 @@ struct Cutter : CutterState {
 
 /// The copy's simulation nodes for a support over element nodes; -1 where the support has no more.
 std::array<Index, 4> find_nodes(const Cutter& cutter, const Support& support, Index copy);
+
+/// Where a simulation node is at rest, m.
+inline const Vec3& rest_of_node(const Cutter& cutter, Index node) {
+    return cutter.body.elements.nodes[row(cutter.mesh.node_reference[row(node)])];
+}
 
 /// Where a material vertex is now, m.
 Vec3 displaced_position(const Cutter& cutter, Index vertex, std::span<const Vec3f> displacement);

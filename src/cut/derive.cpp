@@ -92,6 +92,7 @@ void part_copy(Cutter& cutter, Index copy, Delta& delta, CutReport& report) {
         }
         const Index twin = append_copy(cutter, copy);
         fill_copy(cutter, twin, *part);
+        note_changed_copy(cutter, twin);
         delta.copies.push_back({copy, twin});
         ++report.copies_added;
     }
@@ -264,7 +265,7 @@ void write_class(Cutter& cutter, const Scratch::NodeClass& found, Index node, De
         note_touched(cutter, copy, delta);
         if (cutter.mesh.copy_node[row(copy)][corner] == node) { continue; }
         cutter.mesh.copy_node.edit(row(copy))[corner] = node;
-        note_new_node(cutter, copy);
+        note_changed_copy(cutter, copy);
         delta.corners.push_back({copy, static_cast<Index>(corner), node});
     }
     cutter.mesh.node_mass.edit(row(node)) = found.mass;

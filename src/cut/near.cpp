@@ -6,16 +6,19 @@
 
 #include "cut/stages.hpp"
 
-// Which copies may meet the blade. Nothing is sorted or refitted as the tissue moves: an element that is
-// farther from the blade than both have moved since it was looked at last cannot have come near, so each is
-// looked at again only once that much motion has passed (conservative advancement). Elements that lie
-// together make blocks, which are skipped as one; one that was never near is looked at by boxes around its
-// nodes only, in groups of neighbouring numbers (fem, order_nodes).
+// Which copies may meet the blade. Nothing is sorted or refitted as the tissue moves: nodes that lie farther
+// beyond a side of the blade's box than both have moved since they were looked at last lie beyond it still,
+// so they are looked at again, in groups, only once that much motion has passed (conservative advancement).
+// A copy whose nodes all lie beyond one side is far; elements that lie together make blocks, which are far as
+// one where all the groups that they hang on are.
 namespace resect {
 namespace {
 
-constexpr Index block_size = 32; // elements of `near_order`
-constexpr Index group_size = 32; // nodes
+/// Errors of places in single precision, as a share of what they are computed from.
+constexpr float rounding = 1e-6F;
+/// What a group may use up before it is looked at again: a share of its margin, or this many grains where
+/// that is more. Nodes that lie beyond a side by less count as near, so it is not to be much.
+constexpr double share_spared = 0.25, grains_spared = 0.05;
 
 /// How far nodes move at most, axis by axis: four numbers of each axis side by side.
 double tissue_motion(const Sweep& sweep) {
@@ -40,230 +43,258 @@ double tissue_motion(const Sweep& sweep) {
     return 1.000001 * length(most); // of floats
 }
 
-/// The ends of what the blade cuts and sees.
-Edge reach_of(const BladeFrame& frame, const BladeBox& box) {
-    return {frame.tip + frame.length * frame.along, frame.tip - box.beyond_tip * frame.along};
+/// How far the sides of the blade's box move at most past a point within `reach` of its tip.
+double blade_motion(const Sweep& sweep, double reach) {
+    const BladeFrame &from = sweep.from, &to = sweep.to;
+    const double turn = std::max({length(to.across1 - from.across1), length(to.across2 - from.across2),
+                                  length(to.along - from.along)});
+    return length(to.tip - from.tip) + std::abs(to.length - from.length) + turn * reach;
 }
 
-double blade_motion(const Sweep& sweep, const BladeBox& box) {
-    const Edge from = reach_of(sweep.from, box);
-    const Edge to = reach_of(sweep.to, box);
-    return std::max(length(to.heel - from.heel), length(to.tip - from.tip));
-}
+/// Where the nodes of a group are in the blade's frame, m.
+struct Places {
+    std::array<float, nodes_in_group> x, y, z;
+};
 
-/// Where a node is at the sweep's end, in the blade's frame.
-[[gnu::always_inline]] inline const Vec3& place_node(Cutter& cutter, const Sweep& sweep, Index node) {
-    Scratch& scratch = cutter.scratch;
-    if (scratch.placed.set(node)) {
-        const Vec3& rest = cutter.body.elements.nodes[row(cutter.mesh.node_reference[row(node)])];
-        scratch.place[row(node)] = to_frame(sweep.to, rest + to_double(sweep.after[row(node)]));
+Places place_nodes(const NodeGroup& group, const BladeFrame& frame, std::span<const Vec3f> displacement) {
+    Places at = {};
+    for (std::size_t k = 0; k < nodes_in_group; ++k) {
+        const Vec3f& u = displacement[row(group.node[k])];
+        at.x[k] = u[0];
+        at.y[k] = u[1];
+        at.z[k] = u[2];
     }
-    return scratch.place[row(node)];
-}
-
-/// How far it is from the blade, along the axis where it is farthest; 0 if it may meet it.
-double gap_to(const BladeBox& box, const Extent& extent) {
-    const double across = std::sqrt(2.0) * box.across; // the frame may turn about the blade
-    const Vec3 lo = {-across, -across, -box.beyond_tip - across};
-    const Vec3 hi = {across, across, box.length + across};
-    double gap = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        gap = std::max(gap, std::max(extent.low[axis] - hi[axis], lo[axis] - extent.high[axis]));
+    const Vec3f tip = to_float(frame.tip);
+    const Vec3f a = to_float(frame.across1), b = to_float(frame.across2), c = to_float(frame.along);
+    for (std::size_t k = 0; k < nodes_in_group; ++k) {
+        const float x = group.x[k] + at.x[k] - tip[0];
+        const float y = group.y[k] + at.y[k] - tip[1];
+        const float z = group.z[k] + at.z[k] - tip[2];
+        at.x[k] = a[0] * x + a[1] * y + a[2] * z;
+        at.y[k] = b[0] * x + b[1] * y + b[2] * z;
+        at.z[k] = c[0] * x + c[1] * y + c[2] * z;
     }
-    return gap;
+    return at;
 }
 
-/// How far the copies of an element are from the blade at the sweep's end, at least.
-double find_gap(Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index element) {
-    double gap = std::numeric_limits<double>::infinity();
-    for (Index c = cutter.first_copy[row(element)]; c >= 0; c = cutter.sibling[row(c)]) {
-        const Tet& nodes = cutter.mesh.copy_node[row(c)];
-        const Vec3& first = place_node(cutter, sweep, nodes[0]);
-        Extent extent = {first, first};
-        for (std::size_t k = 1; k < 4; ++k) {
-            extent.add(place_node(cutter, sweep, nodes[k]));
+/// The blade's box, in single precision.
+struct NearBox {
+    float across = 0, low = 0, high = 0; // m
+    float scale = 0;                     // m, that rounding errors go by beside the places themselves
+};
+
+NearBox make_near_box(const BladeBox& box, double scale) {
+    return {static_cast<float>(box.across), static_cast<float>(-box.beyond_tip - box.across),
+            static_cast<float>(box.length + box.across), static_cast<float>(scale)};
+}
+
+NearBox grown(const NearBox& box, double by) {
+    const auto more = static_cast<float>(by);
+    return {box.across + more, box.low - more, box.high + more, box.scale};
+}
+
+/// [node of the group] A bit for each side of the box that it lies beyond.
+using Sides = std::array<std::uint32_t, nodes_in_group>;
+
+Sides find_sides(const Places& at, const NearBox& box) {
+    Sides sides;
+    for (std::size_t k = 0; k < nodes_in_group; ++k) {
+        const float x = at.x[k], y = at.y[k], z = at.z[k];
+        const float doubt = rounding * (box.scale + std::abs(x) + std::abs(y) + std::abs(z));
+        const float across = box.across + doubt;
+        const std::uint32_t beyond_x = (x > across ? 1U : 0U) | (x < -across ? 2U : 0U);
+        const std::uint32_t beyond_y = (y > across ? 4U : 0U) | (y < -across ? 8U : 0U);
+        const std::uint32_t beyond_z = (z < box.low - doubt ? 16U : 0U) | (z > box.high + doubt ? 32U : 0U);
+        sides[k] = beyond_x | beyond_y | beyond_z;
+    }
+    return sides;
+}
+
+std::uint32_t common_of(const Sides& sides) {
+    std::uint32_t common = 63;
+    for (const std::uint32_t own : sides) {
+        common &= own;
+    }
+    return common;
+}
+
+struct Range {
+    float low = 0, high = 0;
+};
+
+Range range_of(const std::array<float, nodes_in_group>& at) {
+    float low[4] = {at[0], at[1], at[2], at[3]};
+    float high[4] = {at[0], at[1], at[2], at[3]};
+    for (std::size_t i = 4; i < nodes_in_group; i += 4) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            low[k] = at[i + k] < low[k] ? at[i + k] : low[k];
+            high[k] = at[i + k] > high[k] ? at[i + k] : high[k];
         }
-        gap = std::min(gap, gap_to(box, extent));
     }
-    return gap;
+    return {*std::min_element(low, low + 4), *std::max_element(high, high + 4)};
 }
 
-/// Where the nodes of a group are at the sweep's end.
-const Extent& find_extent(Cutter& cutter, const Sweep& sweep, Index group) {
-    Scratch& scratch = cutter.scratch;
-    Extent& extent = scratch.group_extent[row(group)];
-    if (scratch.boxed.set(group)) {
-        const Index begin = group * group_size;
-        const Index end = std::min(begin + group_size, static_cast<Index>(sweep.after.size()));
-        const Vec3& first = place_node(cutter, sweep, begin);
-        extent = {first, first};
-        for (Index node = begin + 1; node < end; ++node) {
-            extent.add(place_node(cutter, sweep, node));
+/// How far beyond one side of the box all nodes of a group lie, and how far from the tip they do at most, m.
+struct Margin {
+    double beyond = 0, distance = 0;
+};
+
+Margin find_margin(const Places& at, const NearBox& box) {
+    const Range x = range_of(at.x), y = range_of(at.y), z = range_of(at.z);
+    const auto farthest = [](const Range& range) {
+        return std::max(std::abs(range.low), std::abs(range.high));
+    };
+    const double distance = double(farthest(x)) + double(farthest(y)) + double(farthest(z));
+    const float beyond = std::max({x.low - box.across, -box.across - x.high, y.low - box.across,
+                                   -box.across - y.high, box.low - z.high, z.low - box.high});
+    return {double(beyond), distance};
+}
+
+/// A sweep, for what looks at S with it.
+struct Search {
+    const Sweep& sweep;
+    const BladeBox& box;
+    NearBox near, ahead; // the same, and grown by what lies ahead
+    double reach = 0;    // m, from the tip to what is not far away
+    double motion = 0;   // m, towards each other
+    double spared = 0;   // m, at least
+};
+
+/// Sides that the nodes of a group will lie beyond for a while, if that is long enough; else in this sweep.
+void look_at_group(const NearIndex& near, Approach& approach, const Search& search, std::size_t g) {
+    const NodeGroup& group = near.groups[g];
+    const Places after = place_nodes(group, search.sweep.to, search.sweep.after);
+    const Margin margin = find_margin(after, search.ahead);
+    // The frame's turn moves more what is far away.
+    const double stretch = std::max(1.0, margin.distance / search.reach);
+    const double spared = std::max(share_spared * margin.beyond, search.spared);
+    Sides sides;
+    std::uint32_t common = 0;
+    if (spared > stretch * search.motion) {
+        sides = find_sides(after, grown(search.ahead, spared));
+        common = common_of(sides);
+        approach.safe_until[g] = approach.moved + spared / stretch;
+    } else {
+        sides = find_sides(after, search.near);
+        const Places before = place_nodes(group, search.sweep.from, search.sweep.before);
+        const Sides sides_before = find_sides(before, search.near);
+        for (std::size_t k = 0; k < nodes_in_group; ++k) {
+            sides[k] &= sides_before[k];
         }
+        common = search.box.ahead > 0 ? common_of(find_sides(after, search.ahead)) : common_of(sides);
+        approach.safe_until[g] = approach.moved;
     }
-    return extent;
+    approach.beyond[g] = static_cast<std::uint8_t>(common);
+    for (std::size_t k = 0; k < nodes_in_group; ++k) {
+        approach.node_beyond[row(group.node[k])] = static_cast<std::uint8_t>(sides[k]);
+    }
 }
 
-/// How far all that hangs on a block's nodes is from the blade, at least.
-double find_block_gap(Cutter& cutter, const Sweep& sweep, const BladeBox& box, const BlockGroups& groups) {
-    if (groups.is_mixed || groups.count == 0) { return 0; }
-    Extent extent = find_extent(cutter, sweep, groups.group[0]);
-    for (std::size_t i = 1; i < groups.count; ++i) {
-        const Extent& other = find_extent(cutter, sweep, groups.group[i]);
-        extent.add(other.low);
-        extent.add(other.high);
+/// Lists the copies of a block but those whose nodes all stay beyond one side of the box: nothing between
+/// them can meet the blade.
+void list_copies(const Approach& approach, const NearBlock& block, std::vector<Index>& listed) {
+    for (const NearBlock::Copy& at : block.copies) {
+        unsigned common = 63;
+        for (const Index node : at.node) {
+            common &= approach.node_beyond[row(node)];
+        }
+        if (common == 0) { listed.push_back(at.copy); }
     }
-    return gap_to(box, extent);
 }
 
+/// Sides of the box that a node stays beyond, to the last bit.
 unsigned classify_node(Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index node) {
     Scratch& scratch = cutter.scratch;
     if (scratch.classified.set(node)) {
-        const Vec3& rest = cutter.body.elements.nodes[row(cutter.mesh.node_reference[row(node)])];
+        const Vec3& rest = rest_of_node(cutter, node);
         const Vec3 before = to_frame(sweep.from, rest + to_double(sweep.before[row(node)]));
-        scratch.node_outside[row(node)] =
-            sides_beyond(box, before) & sides_beyond(box, place_node(cutter, sweep, node));
+        const Vec3 after = to_frame(sweep.to, rest + to_double(sweep.after[row(node)]));
+        scratch.node_outside[row(node)] = sides_beyond(box, before) & sides_beyond(box, after);
     }
     return scratch.node_outside[row(node)];
 }
 
-/// Lists the copies of an element but those whose corners all stay beyond one side of the box: nothing
-/// between them can meet the blade.
-void list_copies(Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index element) {
-    for (Index c = cutter.first_copy[row(element)]; c >= 0; c = cutter.sibling[row(c)]) {
+/// Drops those among the listed copies that are far all the same: what is left depends on this sweep only,
+/// not on when its nodes were looked at.
+void drop_far_copies(Cutter& cutter, const Sweep& sweep, const BladeBox& box) {
+    std::erase_if(cutter.scratch.near_copies, [&](Index copy) {
         unsigned common = 63;
-        for (const Index node : cutter.mesh.copy_node[row(c)]) {
+        for (const Index node : cutter.mesh.copy_node[row(copy)]) {
             common &= classify_node(cutter, sweep, box, node);
         }
-        if (common == 0) { cutter.scratch.near_copies.push_back(c); }
-        if (box.ahead > 0) { cutter.scratch.copies_ahead.push_back(c); }
-    }
+        return common != 0;
+    });
 }
 
-/// Looks at the elements of a block that are due, and lists those that are not far. The value of `moved` up
-/// to which all are safe.
-double look_at_elements(Cutter& cutter, Approach& approach, const Sweep& sweep, const BladeBox& box,
-                        std::size_t block, double motion) {
+/// Lists what is near in a block; it is safe where that is nothing.
+void look_at_block(Cutter& cutter, Approach& approach, const BladeBox& box, std::size_t b) {
+    const NearBlock& block = cutter.near.blocks[b];
+    unsigned common = 63;
     double safe_until = std::numeric_limits<double>::infinity();
-    const std::size_t begin = block * row(block_size);
-    for (std::size_t i = begin; i < std::min(cutter.near_order.size(), begin + row(block_size)); ++i) {
-        if (approach.moved > approach.safe_until[i]) {
-            const double gap = find_gap(cutter, sweep, box, cutter.near_order[i]);
-            const bool is_far = gap > motion + box.ahead; // not, if it is not a number
-            approach.safe_until[i] = approach.moved + (is_far ? gap - box.ahead : 0);
-            if (!is_far) { list_copies(cutter, sweep, box, cutter.near_order[i]); }
-        }
-        safe_until = std::min(safe_until, approach.safe_until[i]);
+    for (const Index group : block.groups) {
+        common &= approach.beyond[row(group)];
+        safe_until = std::min(safe_until, approach.safe_until[row(group)]);
     }
-    return safe_until;
-}
-
-void look_at_block(Cutter& cutter, Approach& approach, const Sweep& sweep, const BladeBox& box,
-                   std::size_t block, double motion) {
-    if (approach.is_open[block] == 0) {
-        const double gap = find_block_gap(cutter, sweep, box, cutter.block_groups[block]);
-        if (gap > motion + box.ahead) {
-            approach.block_safe_until[block] = approach.moved + gap - box.ahead;
-            return;
-        }
-        approach.is_open[block] = 1;
-    }
-    approach.block_safe_until[block] = look_at_elements(cutter, approach, sweep, box, block, motion);
-}
-
-BlockGroups& groups_of(Cutter& cutter, Index copy) {
-    const Index place = cutter.place_of_element[row(cutter.mesh.copy_element[row(copy)])];
-    return cutter.block_groups[row(place / block_size)];
-}
-
-void add_group(BlockGroups& groups, Index group) {
-    const auto begin = groups.group.begin(), end = begin + static_cast<std::ptrdiff_t>(groups.count);
-    if (std::find(begin, end, group) != end) { return; }
-    if (groups.count == groups.group.size()) {
-        groups.is_mixed = true;
-    } else {
-        groups.group[groups.count++] = group;
-    }
-}
-
-} // namespace
-
-void find_block_groups(Cutter& cutter) {
-    cutter.block_groups.assign(cutter.near_order.size() / row(block_size) + 1, {});
-    for (std::size_t copy = 0; copy < cutter.mesh.copy_node.size(); ++copy) {
-        for (const Index node : cutter.mesh.copy_node[copy]) {
-            add_group(groups_of(cutter, static_cast<Index>(copy)), node / group_size);
+    approach.block_safe_until[b] = safe_until;
+    if (common != 0) { return; }
+    std::vector<Index>& listed = cutter.scratch.near_copies;
+    const std::size_t before = listed.size();
+    list_copies(approach, block, listed);
+    if (box.ahead > 0) {
+        for (const NearBlock::Copy& at : block.copies) {
+            cutter.scratch.copies_ahead.push_back(at.copy);
         }
     }
+    if (listed.size() > before || box.ahead > 0) { approach.block_safe_until[b] = -1; }
 }
 
-namespace {
-
-/// Room for this sweep.
 void prepare(Cutter& cutter, Approach& approach) {
+    follow_cuts(cutter);
     Scratch& scratch = cutter.scratch;
-    const std::size_t nodes = cutter.mesh.node_reference.size();
     scratch.near_copies.clear();
     scratch.copies_ahead.clear();
-    if (scratch.node_outside.size() < nodes) {
-        scratch.node_outside.resize(2 * nodes);
-        scratch.place.resize(2 * nodes);
+    scratch.classified.clear(cutter.mesh.node_reference.size());
+    if (scratch.node_outside.size() < cutter.mesh.node_reference.size()) {
+        scratch.node_outside.resize(2 * cutter.mesh.node_reference.size());
     }
-    scratch.group_extent.resize(scratch.place.size() / row(group_size) + 1);
-    scratch.placed.clear(nodes);
-    scratch.classified.clear(nodes);
-    scratch.boxed.clear(scratch.group_extent.size());
-    if (cutter.block_groups.empty()) { find_block_groups(cutter); }
-    approach.block_safe_until.resize(cutter.block_groups.size(), -1);
-    approach.is_open.resize(cutter.block_groups.size(), 0);
-    approach.safe_until.resize(cutter.near_order.size(), -1);
+    approach.safe_until.resize(cutter.near.groups.size(), -1);
+    approach.beyond.resize(cutter.near.groups.size(), 0);
+    approach.node_beyond.resize(cutter.near.group_of_node.size(), 0);
+    approach.block_safe_until.resize(cutter.near.blocks.size(), -1);
+}
+
+Search make_search(const Cutter& cutter, const Sweep& sweep, const BladeBox& box) {
+    const auto sum = [](const Vec3& p) { return std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]); };
+    const double scale = cutter.near.scale + std::max(sum(sweep.from.tip), sum(sweep.to.tip));
+    const double reach = cutter.unit;
+    const NearBox near = make_near_box(box, scale);
+    return {sweep,
+            box,
+            near,
+            grown(near, box.ahead),
+            reach,
+            blade_motion(sweep, reach) + tissue_motion(sweep),
+            grains_spared * cutter.grain};
 }
 
 } // namespace
-
-std::vector<Index> order_by_place(const TetMesh& mesh) {
-    const Box box = bounds_of(mesh);
-    const Vec3 size = box.hi - box.lo;
-    const double largest = std::max({size[0], size[1], size[2]});
-    std::vector<std::pair<std::uint32_t, Index>> codes; // the bits of the coordinates of the middle, in turn
-    codes.reserve(mesh.tets.size());
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-        Vec3 middle = {};
-        for (const Index v : mesh.tets[t]) {
-            middle += 0.25 * (mesh.nodes[row(v)] - box.lo);
-        }
-        std::uint32_t code = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto cell = static_cast<std::uint32_t>(1023 * std::clamp(middle[axis] / largest, 0.0, 1.0));
-            for (unsigned bit = 0; bit < 10; ++bit) {
-                code |= ((cell >> bit) & 1U) << (3U * bit + static_cast<unsigned>(axis));
-            }
-        }
-        codes.emplace_back(code, static_cast<Index>(t));
-    }
-    std::sort(codes.begin(), codes.end());
-    std::vector<Index> order;
-    order.reserve(codes.size());
-    for (const auto& code : codes) {
-        order.push_back(code.second);
-    }
-    return order;
-}
-
-void note_new_node(Cutter& cutter, Index copy) {
-    if (!cutter.block_groups.empty()) { groups_of(cutter, copy).is_mixed = true; }
-}
 
 void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box) {
     Approach& approach = blade.approach;
     prepare(cutter, approach);
-    const double motion = blade_motion(sweep, box) + tissue_motion(sweep);
-    approach.moved += motion;
-    for (std::size_t block = 0; block < approach.block_safe_until.size(); ++block) {
-        if (approach.moved > approach.block_safe_until[block]) {
-            look_at_block(cutter, approach, sweep, box, block, motion);
+    const Search search = make_search(cutter, sweep, box);
+    approach.moved += search.motion;
+    for (std::size_t group = 0; group < approach.safe_until.size(); ++group) {
+        if (!(approach.moved <= approach.safe_until[group])) {
+            look_at_group(cutter.near, approach, search, group);
         }
     }
+    for (std::size_t block = 0; block < approach.block_safe_until.size(); ++block) {
+        if (!(approach.moved <= approach.block_safe_until[block])) {
+            look_at_block(cutter, approach, box, block);
+        }
+    }
+    drop_far_copies(cutter, sweep, box);
 }
 
 } // namespace resect

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cut/stages.hpp"
 #include "cut/transaction.hpp"
 
 namespace resect {
@@ -43,7 +44,7 @@ void restore_state(Cutter& cutter, const CutterState& saved) {
     static_cast<CutterState&>(cutter) = saved;
     cutter.revision = revision;
     cutter.surface = {};
-    cutter.block_groups = {};
+    forget_places(cutter);
 }
 
 std::size_t bytes_of(const CutterState& saved) {
