@@ -18,6 +18,7 @@ struct Track {
     GridPoint before = {}, after = {};
     double height_before = 0, height_after = 0; // m above the tip
     std::uint8_t outside = 0;                   // a bit for each side of the blade's box that it stays beyond
+    std::uint8_t half_planes = 0;               // a bit for each side of the axes across that it stays on
     bool on_grid = false;
 };
 

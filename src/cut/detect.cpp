@@ -43,6 +43,12 @@ Passage find_passage(const Vec3& before, const Vec3& after) {
     return {x * x + y * y, before[2] + s * (after[2] - before[2])};
 }
 
+/// A bit for each side of each axis across the blade, for a point strictly on it.
+std::uint8_t half_planes_of(const GridPoint& p) {
+    return static_cast<std::uint8_t>((p.x > 0 ? 1U : 0U) | (p.x < 0 ? 2U : 0U) | (p.y > 0 ? 4U : 0U) |
+                                     (p.y < 0 ? 8U : 0U));
+}
+
 const Track& track_vertex(Cutter& cutter, const Sweep& sweep, const BladeBox& box, Index vertex) {
     Scratch& scratch = cutter.scratch;
     Track& track = scratch.tracks[row(vertex)];
@@ -60,6 +66,7 @@ const Track& track_vertex(Cutter& cutter, const Sweep& sweep, const BladeBox& bo
     if (!track.on_grid) { return track; }
     track.before = quantise(scale * before[0], scale * before[1]);
     track.after = quantise(scale * after[0], scale * after[1]);
+    track.half_planes = half_planes_of(track.before) & half_planes_of(track.after);
 
     const Passage passage = find_passage(before, after);
     const double reach = snap_distance(cutter.material, vertex);
@@ -132,6 +139,7 @@ void find_tet_crossings(Cutter& cutter, const Sweep& sweep, const BladeBox& box,
         const Track& of_u = scratch.tracks[row(u)];
         const Track& of_w = scratch.tracks[row(w)];
         if ((of_u.outside & of_w.outside) != 0) { continue; }
+        if ((of_u.half_planes & of_w.half_planes) != 0) { continue; } // no triangle of theirs holds the blade
         const Hit hit = find_edge_hit(of_u, of_w);
         if (hit.hit && hit.height >= -box.beyond_tip && hit.height <= sweep.to.length) {
             scratch.events.push_back({{u, w, tet}, hit.t, hit.height});

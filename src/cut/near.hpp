@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/index.hpp"
+#include "cut/marks.hpp"
 #include "mesh/tet.hpp"
 
 namespace resect {
@@ -39,6 +40,7 @@ struct NearIndex {
     double scale = 0;                         // m, the largest coordinate of the body at rest
     std::vector<NodeGroup> groups = {};       // empty: to be found
     std::vector<Index> group_of_node = {};
+    Marks listed = {};                  // groups of the block at work
     std::vector<NearBlock> blocks = {}; // [place in order / elements_in_block]
     std::vector<Index> changed = {};    // copies that are new, or hang on other nodes than `blocks` knows of
 };

@@ -55,6 +55,7 @@ void fill_block(Cutter& cutter, std::size_t b) {
     NearBlock& block = near.blocks[b];
     block.copies.clear();
     block.groups.clear();
+    near.listed.clear(near.groups.size());
     const std::size_t begin = b * elements_in_block;
     for (std::size_t i = begin; i < std::min(near.order.size(), begin + elements_in_block); ++i) {
         for (Index c = cutter.first_copy[row(near.order[i])]; c >= 0; c = cutter.sibling[row(c)]) {
@@ -62,8 +63,7 @@ void fill_block(Cutter& cutter, std::size_t b) {
             block.copies.push_back({c, nodes});
             for (const Index node : nodes) {
                 const Index group = near.group_of_node[row(node)];
-                const auto known = std::find(block.groups.begin(), block.groups.end(), group);
-                if (known == block.groups.end()) { block.groups.push_back(group); }
+                if (near.listed.set(group)) { block.groups.push_back(group); }
             }
         }
     }
