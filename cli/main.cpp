@@ -138,6 +138,8 @@ void add_lab(CLI::App& app, cli::LabOptions& options, int& status) {
     command->add_option("--out", options.out, "folder for index.html, .csv and .vtp files")
         ->capture_default_str();
     command->add_flag("--quick", options.quick, "coarse bodies, in under a minute");
+    command->add_flag("--references", options.references,
+                      "no report: solves the stored reference openings anew by CalculiX, in some minutes");
     command->callback([&] { status = cli::lab(options); });
 }
 

@@ -72,6 +72,7 @@ struct BenchOptions {
 struct LabOptions {
     std::string out = "out/lab";
     bool quick = false;
+    bool references = false;
 };
 
 int run(const RunOptions& options);

@@ -189,6 +189,16 @@ CutMesh without(const TetMesh& mesh, const std::vector<std::uint8_t>& is_gone) {
     return drop_unused_nodes(left);
 }
 
+constexpr Vec3 size = {0.10, 0.08, 0.10}; // m, of the block
+
+/// Draws places between 0 and `whole` towards one of them, where lengths shrink to `finest` of what they
+/// were.
+double gather(double at, double towards, double whole, double finest) {
+    const double side = at < towards ? towards : whole - towards;
+    const double share = (at - towards) / side;
+    return towards + side * share * (finest + (1 - finest) * std::abs(share));
+}
+
 } // namespace
 
 std::vector<Vec3> displacement_of(const Simulation& simulation) {
@@ -200,9 +210,15 @@ std::vector<Vec3> displacement_of(const Simulation& simulation) {
 }
 
 Problem hang_block(const std::array<Index, 3>& cells, const Notch& notch) {
-    constexpr Vec3 size = {0.10, 0.08, 0.10};
     constexpr double mouth = 0.05; // m, x of the sheet
-    return {.mesh = make_jittered_block(size, cells, notch.jitter, notch.seed),
+    TetMesh mesh = make_jittered_block(size, cells, notch.jitter, notch.seed);
+    if (notch.finest < 1) {
+        for (Vec3& node : mesh.nodes) {
+            node[0] = gather(node[0], mouth - notch.lean, size[0], notch.finest);
+            node[2] = gather(node[2], size[2] - notch.depth, size[2], notch.finest);
+        }
+    }
+    return {.mesh = std::move(mesh),
             .bounds = {{0, 0, 0}, size},
             .spacing = size[0] / cells[0],
             .material = {.young = 3e4, .poisson = 0.35, .density = 1000},
@@ -210,6 +226,19 @@ Problem hang_block(const std::array<Index, 3>& cells, const Notch& notch) {
             .gravity = {9.81, 0, 0},
             .sheet = flat_notch({mouth, 0, size[2]}, {mouth - notch.lean, 0, size[2] - notch.depth}, size[1]),
             .gauge = {Vec3{mouth - 0.02, 0.04, size[2]}, Vec3{mouth + 0.02, 0.04, size[2]}}};
+}
+
+Problem split_into_wall(const std::array<Index, 3>& cells, double jitter, unsigned seed) {
+    constexpr double height = 0.025; // m, z of the sheet
+    const auto at = [](double x) { return Edge{{x, 1.5 * size[1], height}, {x, -0.5 * size[1], height}}; };
+    return {.mesh = make_jittered_block(size, cells, jitter, seed),
+            .bounds = {{0, 0, 0}, size},
+            .spacing = size[0] / cells[0],
+            .material = {.young = 3e5, .poisson = 0.35, .density = 1000},
+            .held = {{-1, -1, -1}, {0, 1, 1}},
+            .gravity = {0, 0, -9.81},
+            .sheet = Sheet({at(1.2 * size[0]), at(-0.2 * size[0])}),
+            .gauge = {Vec3{size[0], 0.04, height + 0.02}, Vec3{size[0], 0.04, height - 0.02}}};
 }
 
 Problem bow(Problem problem) {
@@ -366,10 +395,8 @@ Outcome cut_by_tensor_mass(const Problem& problem) {
     return outcome;
 }
 
-std::optional<double> find_reference_opening(const std::array<Index, 3>& cells, Notch notch, bool quadratic,
+std::optional<double> find_reference_opening(const Problem& problem, bool quadratic,
                                              const std::string& folder) {
-    notch.jitter = 0;
-    const Problem problem = hang_block(cells, notch);
     const auto gauge_after = [&](const CutMesh& cut) -> std::optional<double> {
         const std::optional<std::vector<Vec3>> u =
             solve_by_calculix({cut.mesh, problem.material, problem.held, problem.gravity, quadratic}, folder);

@@ -29,12 +29,16 @@ struct Notch {
     double lean = 0;     // m by which the tip lies nearer to the held side than the mouth
     double jitter = 0.2; // cells by which nodes of the mesh are moved at most
     unsigned seed = 1;   // of that
+    double finest = 1;   // width of cells about the tip, as a share of even ones
 };
 
 /// A block of 0.10 x 0.08 x 0.10 m that hangs by x = 0 and is notched at x = 0.05, from z = 0.10 down.
 /// Without jitter the sheet lies on faces of a mesh of even cells.
 Problem hang_block(const std::array<Index, 3>& cells, const Notch& notch = {});
-/// The same with a knife that leans and goes along an arc.
+/// The same block, stiffer and lying, with a knife that goes flat at z = 0.025 from the free end into the
+/// held side. Without jitter the sheet lies on faces of a mesh of 4, 8, 12 ... cells along z.
+Problem split_into_wall(const std::array<Index, 3>& cells, double jitter = 0, unsigned seed = 1);
+/// The first with a knife that leans and goes along an arc.
 Problem bow(Problem problem);
 
 /// What a method made of a problem. What does not apply is nothing.
@@ -64,9 +68,9 @@ Outcome cut_along_faces_linear(const Problem& problem);
 Outcome cut_by_woodbury(const Problem& problem);
 Outcome cut_by_tensor_mass(const Problem& problem);
 
-/// The opening that CalculiX finds on a conforming mesh of the hanging block, split where the sheet is, m.
-/// The notch is upright or leans by its depth, and its ends are rows of nodes.
-std::optional<double> find_reference_opening(const std::array<Index, 3>& cells, Notch notch, bool quadratic,
+/// The opening that CalculiX finds on the mesh of a problem, whose sheet lies on faces and ends at nodes,
+/// split where the sheet is, m.
+std::optional<double> find_reference_opening(const Problem& problem, bool quadratic,
                                              const std::string& folder);
 
 } // namespace lab
