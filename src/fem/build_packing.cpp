@@ -144,6 +144,7 @@ void reserve_rows(Part& part) {
     reserve_ahead(part.tets, 2);
     reserve_ahead(part.copies, 2);
     part.spare.reserve(64);
+    part.left_range.reserve(64);
     for (Cell& cell : part.cells) {
         reserve_ahead(cell.copies, 2);
     }

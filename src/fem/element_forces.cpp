@@ -47,6 +47,7 @@ void add_forces_beyond_range(const BeyondRange& range, Index copy) {
         }
     }
     const Deformation<double> at = deformation(displacement_gradient(relative, gradient));
+    if (!is_trusted(at.now)) { packing.parts[row(range.part)].left_range.push_back(copy); }
     const Matrix3<double> P = stress(at, law(at.now, moduli_of(range.elements, copy)));
     const auto slot_of = [&](std::size_t corner) { return find_slot(packing, range.part, node[corner]); };
     Vec3f others = {};
@@ -78,7 +79,8 @@ void add_block_beyond_range(void* caller, int block_row, const FansBeyond& beyon
 } // namespace
 
 void element_forces(const Elements& elements, const NodeArrays& nodes, Packing& packing, Index part_row) {
-    const Part& part = packing.parts[row(part_row)];
+    Part& part = packing.parts[row(part_row)];
+    part.left_range.clear();
     const auto force = packing.force.begin() + part.first_slot;
     std::fill(force, force + part.slots, Row{});
     BeyondRange beyond{elements, nodes, packing, part_row};

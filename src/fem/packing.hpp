@@ -37,6 +37,7 @@ struct Part {
     std::vector<Index> spare = {};      // rows of tets: blocks of single tets with free lanes
     std::vector<Cell> cells = {};
     std::vector<FanBlock> dropped = {}; // rows without a use
+    std::vector<Index> left_range = {}; // copies that the forces computed last found beyond the trusted range
 };
 
 /// Where the step finds a copy.

@@ -158,8 +158,9 @@ void append_quantities(Engine& engine, std::span<const Delta::NewCopy> copies);
 void update_stiffness(Engine& engine, std::span<const Index> copies);
 /// Of all copies, computed anew.
 void update_all_stiffness(Engine& engine);
-/// Weakens for good the copies that the last check found beyond the trusted range.
+/// Weakens for good the light copies that the last forces found beyond the trusted range.
 void weaken_strained(Engine& engine);
+void count_weakened(Engine& engine); // into `strain`
 
 // step.cpp
 /// Forces of the present state, for node_update and settle.

@@ -58,6 +58,7 @@ bool step_motion(Engine& engine) {
     engine.work.internal += sums.internal_work;
     engine.work.damping += sums.damping_work;
     ++engine.step;
+    weaken_strained(engine);
     repack_one_part(engine);
     return true;
 }

@@ -82,13 +82,19 @@ void update_all_stiffness(Engine& engine) {
 }
 
 void weaken_strained(Engine& engine) {
-    Index weakened = 0;
-    for (Index copy = 0; copy < engine.elements.count; ++copy) {
-        std::uint8_t& weak = engine.weak[row(copy)];
-        if (engine.left_range[row(copy)] != 0 && weak == 0 && is_light(engine, copy)) {
+    for (const Part& part : engine.packing.parts) {
+        for (const Index copy : part.left_range) {
+            std::uint8_t& weak = engine.weak[row(copy)];
+            if (weak != 0 || !is_light(engine, copy)) { continue; }
             weak = 1;
             set_stiffness(engine, copy);
         }
+    }
+}
+
+void count_weakened(Engine& engine) {
+    Index weakened = 0;
+    for (Index copy = 0; copy < engine.elements.count; ++copy) {
         weakened += is_weakened(engine, copy) ? 1 : 0;
     }
     engine.strain.elements_weakened = weakened;

@@ -67,7 +67,7 @@ void check_strain_now(Engine& engine) {
     const StrainCheck now = over_all_copies(engine, [&](Range copies) {
         return check_strain(engine.elements, engine.nodes, engine.copy_density, copies, engine.left_range);
     });
-    weaken_strained(engine);
+    count_weakened(engine);
     take_note(engine.strain, now);
     engine.live_bound = now.live_bound;
 }
@@ -80,7 +80,7 @@ void check_strain_if_due(Engine& engine) {
     const StrainCheck now = over_all_copies(engine, [&](Range copies) {
         return screen_strain(engine.elements, engine.nodes, known, copies, engine.left_range);
     });
-    weaken_strained(engine);
+    count_weakened(engine);
     take_note(engine.strain, now);
 }
 

@@ -26,7 +26,7 @@ export function drawPlot(part: PlotPart, parent: HTMLElement): void {
     height: 380,
     cursor: { drag: { x: false, y: false } },
     legend: { live: false },
-    scales: { x: { time: false, distr: part.log_x ? 3 : 1 }, y: { distr: part.log_y ? 3 : 1, ...(part.log_y ? {} : { range: (_: uPlot, low: number, high: number): [number, number] => [Math.min(0, low), high * 1.08] }) } },
+    scales: { x: { time: false, distr: part.log_x ? 3 : 1, ...(part.log_x ? { range: (_: uPlot, low: number, high: number): [number, number] => [low / 1.1, high * 1.1] } : {}) }, y: { distr: part.log_y ? 3 : 1, ...(part.log_y ? {} : { range: (_: uPlot, low: number, high: number): [number, number] => [Math.min(0, low), high * 1.08] }) } },
     axes: [
       { label: part.x_label, values: (_, values) => format(values), space: 50 },
       { label: part.y_label, values: (_, values) => format(values), size: 70 },
