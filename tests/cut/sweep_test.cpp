@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <numeric>
+
 #include "strokes.hpp"
 
 namespace resect {
@@ -130,6 +132,86 @@ TEST_CASE("the same stroke in 10 and in 100 increments gives the same pieces") {
         CHECK(pieces[0][i].id == pieces[1][i].id);
         CHECK(std::abs(pieces[0][i].volume - pieces[1][i].volume) < 0.05 / 5);
     }
+}
+
+/// What three strokes that cross, one of them curved and not all the way through, leave of a body.
+struct Remains {
+    std::vector<double> volumes = {}; // of the pieces, largest first
+    double copies = 0, tets = 0;
+};
+
+/// Blade and tissue are moved by `move`, which maps lines to lines.
+Remains cut_moved(const Body& body, const std::function<Vec3(Vec3)>& move) {
+    const CutterPtr cutter = cutter_of(body);
+    const Motion3 moved = [&](Vec3 p, double) { return move(p); };
+    const Poses across = plane_poses({0.2, 1, 0.3}, {0.5, 0.45, 0.5}, {1, 0, 0});
+    const Poses curved = [](double t) {
+        return Edge{{0.45 + 0.1 * std::sin(3 * t), 1.3 * t - 0.1, 2}, {0.55, 1.3 * t - 0.1, 0.3}};
+    };
+    const Poses through = plane_poses({1, 0.1, 0.3}, {0.45, 0.5, 0.5}, {0, 0, 1});
+    for (const Poses& poses : {across, curved, through}) {
+        stroke(
+            *cutter,
+            [&](double t) {
+                return Edge{move(poses(t).heel), move(poses(t).tip)};
+            },
+            40, moved);
+    }
+    CHECK(find_broken_invariant(*cutter) == "");
+    Remains remains = {{}, double(cutter->mesh.copy_node.size()), double(cutter->material.tets.size())};
+    for (const Piece& piece : pieces_of(*cutter)) {
+        remains.volumes.push_back(piece.volume);
+    }
+    std::sort(remains.volumes.rbegin(), remains.volumes.rend());
+    return remains;
+}
+
+void check_alike(const Remains& one, const Remains& other, double share) {
+    REQUIRE(one.volumes.size() == 4);
+    REQUIRE(other.volumes.size() == one.volumes.size());
+    for (std::size_t i = 0; i < one.volumes.size(); ++i) {
+        CHECK(std::abs(one.volumes[i] - other.volumes[i]) <= share);
+    }
+    CHECK(other.copies == doctest::Approx(one.copies).epsilon(20 * share));
+    CHECK(other.tets == doctest::Approx(one.tets).epsilon(20 * share));
+}
+
+TEST_CASE("a body that was turned, stretched or sheared with the blade is cut as at rest") {
+    const Body body = make_cube(5, 0.2, 4);
+    const Remains rest = cut_moved(body, [](Vec3 p) { return p; });
+    check_alike(rest,
+                cut_moved(body,
+                          [](Vec3 p) {
+                              return Vec3{0.6 * p[0] - 0.8 * p[2] + 0.3, p[1], 0.8 * p[0] + 0.6 * p[2]};
+                          }),
+                1e-7);
+    check_alike(rest, cut_moved(body, [](Vec3 p) { return Vec3{1.4 * p[0], 0.8 * p[1], 0.9 * p[2]}; }), 1e-3);
+    check_alike(rest,
+                cut_moved(body,
+                          [](Vec3 p) {
+                              return Vec3{p[0] + 0.4 * p[1], p[1] - 0.2 * p[2], p[2]};
+                          }),
+                1e-3);
+}
+
+TEST_CASE("a body whose tets and nodes are listed in another order is cut alike") {
+    const Body body = make_cube(5, 0.2, 4);
+    Body listed = body;
+    std::mt19937 random(11);
+    std::vector<Index> row_of(body.elements.nodes.size());
+    std::iota(row_of.begin(), row_of.end(), 0);
+    std::shuffle(row_of.begin(), row_of.end(), random);
+    for (std::size_t node = 0; node < row_of.size(); ++node) {
+        listed.elements.nodes[row(row_of[node])] = body.elements.nodes[node];
+    }
+    for (Tet& tet : listed.elements.tets) {
+        for (Index& node : tet) {
+            node = row_of[row(node)];
+        }
+    }
+    std::shuffle(listed.elements.tets.begin(), listed.elements.tets.end(), random);
+    const auto stay_put = [](Vec3 p) { return p; };
+    check_alike(cut_moved(body, stay_put), cut_moved(listed, stay_put), 1e-6);
 }
 
 TEST_CASE("tissue that falls onto a blade at rest is cut in two") {
