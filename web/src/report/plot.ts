@@ -28,7 +28,7 @@ export function drawPlot(part: PlotPart, parent: HTMLElement): void {
     legend: { live: false },
     scales: { x: { time: false, distr: part.log_x ? 3 : 1, ...(part.log_x ? { range: (_: uPlot, low: number, high: number): [number, number] => [low / 1.1, high * 1.1] } : {}) }, y: { distr: part.log_y ? 3 : 1, ...(part.log_y ? {} : { range: (_: uPlot, low: number, high: number): [number, number] => [Math.min(0, low), high * 1.08] }) } },
     axes: [
-      { label: part.x_label, values: (_, values) => format(values), space: 50 },
+      { label: part.x_label, values: (_, values) => format(values), space: 50, ...(part.log_x ? { filter: (_: uPlot, places: number[]) => places.map((place) => (Number(place.toPrecision(1)) === place ? place : null)) } : {}) },
       { label: part.y_label, values: (_, values) => format(values), size: 70 },
     ],
     series: [{ label: part.x_label }, ...part.series.map(({ name, points }, i) => ({
