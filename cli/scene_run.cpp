@@ -190,7 +190,7 @@ double find_opening(const Surface& surface) {
         for (std::size_t b = a + 1; b < torn.size() && rest(torn[b]) == rest(torn[a]); ++b) {
             const Vec3f &p = surface.position[static_cast<std::size_t>(torn[a])],
                         &q = surface.position[static_cast<std::size_t>(torn[b])];
-            const double distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+            const auto distance = double(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
             opening = std::max(opening, distance);
         }
     }

@@ -116,7 +116,7 @@ void stretch(Simulation& sim, const Site& site, const std::function<bool(Vec3f)>
             t += across * site.across[k] * (double(x[k]) - site.origin[k]);
         }
         order.nodes.push_back(now.reference[i]);
-        from.push_back({u[0], u[1], u[2]});
+        from.push_back({double(u[0]), double(u[1]), double(u[2])});
         way.push_back({s * site.along[0] + t * site.across[0], s * site.along[1] + t * site.across[1],
                        s * site.along[2] + t * site.across[2]});
     }

@@ -127,7 +127,7 @@ TetMesh prepare(const Problem& problem, bool moves_nodes) {
 double mass_of(const Simulation& simulation) {
     double mass = 0;
     for (const float m : simulation.nodes().mass) {
-        mass += double{m};
+        mass += double(m);
     }
     return mass;
 }

@@ -196,7 +196,7 @@ Invariants measure(const Simulation& simulation) {
     const Nodes nodes = simulation.nodes();
     Invariants now{.kinetic = simulation.energies().kinetic, .elastic = simulation.energies().elastic};
     for (std::size_t n = 0; n < nodes.mass.size(); ++n) {
-        const double mass = double{nodes.mass[n]};
+        const double mass = double(nodes.mass[n]);
         const Vec3 momentum = mass * to_double(nodes.velocity[n]);
         const Vec3 at = to_double(nodes.rest[n]) + to_double(nodes.displacement[n]);
         now.mass += mass;
