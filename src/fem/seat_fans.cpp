@@ -45,7 +45,7 @@ Index add_block(Packing& packing, const NodeArrays& nodes, Index part_row, const
     std::fill_n(part.tets.begin() + block.first_tet, block.length, FanTets{});
     std::fill_n(part.copies.begin() + block.first_tet, block.length, none);
     const Index before = block_of(part, block.first_tet); // -1: none
-    part.blocks.insert(part.blocks.begin() + before + 1, block);
+    part.blocks.insert(part.blocks.begin() + (before + 1), block);
     return before + 1;
 }
 
