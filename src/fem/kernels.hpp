@@ -22,11 +22,16 @@ struct alignas(16) Place {
 inline constexpr float quanta_turn = 4294967296.0F; // 2^32
 inline constexpr float round_adder = 12582912.0F;   // 1.5 * 2^23: what is added to it and taken off is whole
 
-/// A length in quanta, towards zero, modulo 2^32; the number of quanta in a metre is a power of two.
+/// Towards zero; the least number for what is none or too large, as vectors have it.
+inline int truncate(float x) {
+    return x > -quanta_turn / 2 && x < quanta_turn / 2 ? static_cast<int>(x) : -2147483647 - 1;
+}
+
+/// A length in quanta, modulo 2^32; the number of quanta in a metre is a power of two.
 inline int quanta(float length, float per_metre) {
     const float count = length * per_metre;
     const float turns = (count * (1 / quanta_turn) + round_adder) - round_adder;
-    return static_cast<int>(count - quanta_turn * turns);
+    return truncate(count - quanta_turn * turns);
 }
 
 /// Rows of 16 fans, as byte offsets into the part's positions and forces.

@@ -158,7 +158,7 @@ void place_at(Packing& packing, Index node, const Vec3f& u, const Vec3f& v) {
         const float time = packing.parts[row(packing.slot_part[row(slot)])].viscous_time;
         const auto along = [&](int rest, std::size_t axis) {
             return add(rest, add(quanta(u[axis], packing.quanta_a_metre),
-                                 static_cast<int>(time * v[axis] * packing.quanta_a_metre)));
+                                 truncate(time * v[axis] * packing.quanta_a_metre)));
         };
         const Place& rest = packing.rest[row(slot)];
         packing.position[row(slot)] = {along(rest.x, 0), along(rest.y, 1), along(rest.z, 2), 0};
