@@ -19,6 +19,8 @@ constexpr float rounding = 1e-6F;
 /// What a group may use up before it is looked at again: a share of its margin, or this many grains where
 /// that is more. Nodes that lie beyond a side by less count as near, so it is not to be much.
 constexpr double share_spared = 0.25, grains_spared = 0.05;
+/// Of the body's size, that Approach::moved tells small motion by.
+constexpr double most_moved = 1e6;
 
 /// How far nodes move at most, axis by axis: four numbers of each axis side by side.
 double tissue_motion(const Sweep& sweep) {
@@ -165,9 +167,9 @@ void look_at_group(const NearIndex& near, Approach& approach, const Search& sear
     const NodeGroup& group = near.groups[g];
     const Places after = place_nodes(group, search.sweep.to, search.sweep.after);
     const Margin margin = find_margin(after, search.ahead);
-    // The frame's turn moves more what is far away.
-    const double stretch = std::max(1.0, margin.distance / search.reach);
     const double spared = std::max(share_spared * margin.beyond, search.spared);
+    // The frame's turn moves more what is far away, or will be.
+    const double stretch = std::max(1.0, (margin.distance + spared) / search.reach);
     Sides sides;
     std::uint32_t common = 0;
     if (spared > stretch * search.motion) {
@@ -295,6 +297,7 @@ void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const Bl
         }
     }
     drop_far_copies(cutter, sweep, box);
+    if (!(approach.moved < most_moved * search.reach)) { approach = {}; } // small motion would be lost in it
 }
 
 } // namespace resect

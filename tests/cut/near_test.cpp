@@ -46,6 +46,14 @@ TEST_CASE("the copies that a blade may meet are those that a look at every one f
     constexpr std::size_t sweeps = 400;
     const auto share = [](std::size_t i) { return static_cast<double>(i) / sweeps; };
     for (std::size_t i = 1; i <= sweeps; ++i) {
+        if (i % 100 == 0) { // a leap that no number of moves makes up for
+            Delta delta;
+            CutReport report;
+            const std::vector<Vec3f> now = displacements(*cutter, sway, share(i - 1));
+            for (const double far : {1e200, 3.0}) {
+                sweep_blade(*cutter, 0, {{0, -far, 1}, {0, -far, 0}}, now, now, delta, report);
+            }
+        }
         const std::vector<Vec3f> before = displacements(*cutter, sway, share(i - 1));
         const std::vector<Vec3f> after = displacements(*cutter, sway, share(i));
         const BladeFrame& from = cutter->blades[0].frame;
