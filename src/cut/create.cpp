@@ -451,7 +451,7 @@ void reserve_rows(Cutter& cutter) {
     for (Marks* marks : {&scratch.queued, &scratch.walked, &scratch.in_cluster}) {
         marks->grow(tets);
     }
-    for (Marks* marks : {&scratch.relisted, &scratch.hung, &scratch.reached}) {
+    for (Marks* marks : {&scratch.relisted, &scratch.noted, &scratch.reached}) {
         marks->grow(copies);
     }
     scratch.walked_pairs.grow(4 * copies);

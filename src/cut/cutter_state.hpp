@@ -82,7 +82,7 @@ struct Scratch {
     std::vector<Touched> touched = {};
     Marks walked_pairs = {};
     Marks reweighed = {}; // nodes whose mass or hold may change though they do not fall apart
-    Marks hung = {};      // copies in Delta::touched_copies
+    Marks noted = {};     // copies in Delta::touched_copies
     struct Part {
         std::size_t begin = 0, end = 0; // rows of part_tets
         double volume = 0;

@@ -103,7 +103,7 @@ void touch(Cutter& cutter, Index copy, std::size_t corner) {
 }
 
 void note_touched(Cutter& cutter, Index copy, Delta& delta) {
-    if (cutter.scratch.hung.set(copy)) { delta.touched_copies.push_back(copy); }
+    if (cutter.scratch.noted.set(copy)) { delta.touched_copies.push_back(copy); }
 }
 
 /// Touches a corner of all copies of an element. Where they all hang on one node, it bears what it bore
@@ -127,7 +127,7 @@ void weigh_elements(Cutter& cutter, Delta& delta) {
     Scratch& scratch = cutter.scratch;
     sort_unique(scratch.elements);
     scratch.reweighed.clear(cutter.mesh.node_mass.size());
-    scratch.hung.clear(cutter.mesh.copy_node.size());
+    scratch.noted.clear(cutter.mesh.copy_node.size());
     for (const Index element : scratch.elements) {
         weigh_element(cutter, element);
         for (Index c = cutter.first_copy[row(element)]; c >= 0; c = cutter.sibling[row(c)]) {
@@ -212,13 +212,8 @@ void walk_classes_of(Cutter& cutter, std::span<const Scratch::Touched> touched) 
     Scratch& scratch = cutter.scratch;
     const Index node = touched.front().node;
     bool stays = !scratch.reweighed.has(node);
-    std::size_t met = 0;
-    const auto are_all_met = [&] {
-        while (met < touched.size() && scratch.walked_pairs.has(touched[met].pair)) {
-            ++met;
-        }
-        return met == touched.size();
-    };
+    AllMarked are_all_met(scratch.walked_pairs, touched,
+                          [](const Scratch::Touched& one) { return one.pair; });
     for (const Scratch::Touched& seed : touched) {
         if (!scratch.walked_pairs.set(seed.pair)) { continue; }
         const std::size_t begin = scratch.pairs.size();

@@ -39,6 +39,30 @@ private:
     std::uint32_t stamp_ = 1;
 };
 
+/// Whether all of a list have marks: asked again and again while marks only come, so that each is looked at
+/// once.
+template <class Item, class RowOf>
+class AllMarked {
+public:
+    AllMarked(const Marks& marks, std::span<const Item> list, RowOf row_of)
+        : marks_(marks), list_(list), row_of_(row_of) {}
+
+    bool operator()() {
+        while (marked_ < list_.size() && marks_.has(row_of_(list_[marked_]))) {
+            ++marked_;
+        }
+        return marked_ == list_.size();
+    }
+    /// The first without, where there is one.
+    const Item& next() const { return list_[marked_]; }
+
+private:
+    const Marks& marks_;
+    std::span<const Item> list_;
+    RowOf row_of_;
+    std::size_t marked_ = 0;
+};
+
 /// Rows in the order in which they were added, each once.
 class RowSet {
 public:

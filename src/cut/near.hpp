@@ -11,6 +11,8 @@
 
 namespace resect {
 
+struct Cutter;
+
 inline constexpr std::size_t nodes_in_group = 32;
 inline constexpr std::size_t elements_in_block = 32;
 
@@ -55,5 +57,14 @@ struct Approach {
     std::vector<double> block_safe_until =
         {}; // [block] value of `moved` up to which it need not be looked at
 };
+
+/// Puts elements and nodes in an order that keeps neighbours close together.
+void index_by_place(Cutter& cutter);
+/// S is another: its nodes are to be grouped anew.
+void forget_places(Cutter& cutter);
+/// Takes in the nodes and copies that cuts have made since, and the copies that they hung on other nodes.
+void follow_cuts(Cutter& cutter);
+/// A copy is new, or hangs on a node that it did not hang on before.
+void note_changed_copy(Cutter& cutter, Index copy);
 
 } // namespace resect

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "cut/stages.hpp"
 #include "cut/transaction.hpp"
 
 namespace resect {

@@ -24,14 +24,6 @@ BladeBox make_box(const Cutter& cutter, const Sweep& sweep);
 /// A bit for each side of the box that the point lies beyond.
 std::uint8_t sides_beyond(const BladeBox& box, const Vec3& point);
 
-/// Puts elements and nodes in an order that keeps neighbours close together.
-void index_by_place(Cutter& cutter);
-/// S is another: its nodes are to be grouped anew.
-void forget_places(Cutter& cutter);
-/// Takes in the nodes and copies that cuts have made since, and the copies that they hung on other nodes.
-void follow_cuts(Cutter& cutter);
-/// A copy is new, or hangs on a node that it did not hang on before.
-void note_changed_copy(Cutter& cutter, Index copy);
 /// Lists the copies that may meet the blade.
 void find_near_copies(Cutter& cutter, Blade& blade, const Sweep& sweep, const BladeBox& box);
 

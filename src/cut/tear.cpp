@@ -197,18 +197,13 @@ void part_star(Cutter& cutter, std::span<const Scratch::Seed> seeds) {
     cutter.material.on_cut.edit(row(vertex)) = 1;
     cutter.material.any_tet.edit(row(vertex)) = seeds.front().tet;
     scratch.walked.clear(cutter.material.tets.size());
-    std::size_t met = 0;
-    const auto are_all_met = [&] {
-        while (met < seeds.size() && scratch.walked.has(seeds[met].tet)) {
-            ++met;
-        }
-        return met == seeds.size();
-    };
+    AllMarked are_all_met(scratch.walked, seeds, [](const Scratch::Seed& seed) { return seed.tet; });
     scratch.star.clear();
-    walk_star_until(cutter.material, vertex, seeds.front().tet, scratch.walked, scratch.star, are_all_met);
+    walk_star_until(cutter.material, vertex, seeds.front().tet, scratch.walked, scratch.star,
+                    [&] { return are_all_met(); });
     while (!are_all_met()) {
         scratch.star.clear();
-        walk_star(cutter.material, vertex, seeds[met].tet, scratch.walked, scratch.star);
+        walk_star(cutter.material, vertex, are_all_met.next().tet, scratch.walked, scratch.star);
         detach_star(cutter, vertex, scratch.star);
     }
 }
