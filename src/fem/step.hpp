@@ -53,14 +53,13 @@ struct StrainCheck {
     Index worst_copy = -1;                                       // smallest live bound
     double live_bound = std::numeric_limits<double>::infinity(); // s
 };
-/// Of copies [begin, end); `density` is by copy, kg/m^3. Viscosity does not count. Marks in `beyond`, [copy]
-/// unless it is empty, by 1 those that are not is_trusted, by 0 the others.
+/// Of copies [begin, end); `density` is by copy, kg/m^3. Viscosity does not count.
 StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std::span<const float> density,
-                         Range copies, std::span<std::uint8_t> beyond = {});
+                         Range copies);
 /// The same without bounds, and past copies whose stretches are certain to lie among those of `known`: a
 /// small part of the time where few copies are deformed most. Copies begin at a multiple of `lanes`.
 StrainCheck screen_strain(const Elements& elements, const NodeArrays& nodes, const StrainCheck& known,
-                          Range copies, std::span<std::uint8_t> beyond = {});
+                          Range copies);
 /// Of both ranges; the earlier one's copy stays where bounds are equal.
 StrainCheck merge(const StrainCheck& a, const StrainCheck& b);
 

@@ -133,7 +133,7 @@ struct alignas(64) Suspects {
 } // namespace
 
 StrainCheck screen_strain(const Elements& elements, const NodeArrays& nodes, const StrainCheck& known,
-                          Range copies, std::span<std::uint8_t> beyond) {
+                          Range copies) {
     RESECT_ASSERT(copies.begin % lanes == 0);
     const auto above = static_cast<float>(known.stretch_max * known.stretch_max - 1);
     const auto below = static_cast<float>(1 - known.stretch_min * std::abs(known.stretch_min));
@@ -145,12 +145,10 @@ StrainCheck screen_strain(const Elements& elements, const NodeArrays& nodes, con
         gather(u, block, nodes.displacement);
         find_suspects(suspects, block, u, above, below);
         for (Index copy = first; copy < std::min(first + lanes, copies.end); ++copy) {
-            if (!beyond.empty()) { beyond[row(copy)] = 0; }
             if (suspects.copy[copy % lanes] == 0) { continue; }
             const CopyState state = state_of(elements, nodes.displacement, copy);
             const Stretches now = principal_stretches(state.at.H);
             const bool trusted = is_trusted(state.at.now);
-            if (!beyond.empty()) { beyond[row(copy)] = trusted ? 0 : 1; }
             check = merge(check, {.stretch_min = now.value[2],
                                   .stretch_max = now.value[0],
                                   .beyond_range = trusted ? 0 : 1,
@@ -161,13 +159,12 @@ StrainCheck screen_strain(const Elements& elements, const NodeArrays& nodes, con
 }
 
 StrainCheck check_strain(const Elements& elements, const NodeArrays& nodes, std::span<const float> density,
-                         Range copies, std::span<std::uint8_t> beyond) {
+                         Range copies) {
     StrainCheck check;
     for (Index copy = copies.begin; copy < copies.end; ++copy) {
         const CopyState state = state_of(elements, nodes.displacement, copy);
         const Stretches now = principal_stretches(state.at.H);
         const bool trusted = is_trusted(state.at.now);
-        if (!beyond.empty()) { beyond[row(copy)] = trusted ? 0 : 1; }
         check = merge(check, {now.value[2], now.value[0], trusted ? 0 : 1, now.J <= 0 ? 1 : 0, copy,
                               live_bound(state, now, double(density[row(copy)]))});
     }

@@ -122,7 +122,6 @@ struct Engine : EngineState {
 
     std::vector<StepSums> sums = {};            // scratch of a step [chunk]
     std::vector<StrainCheck> strain_parts = {}; // scratch of a check [chunk]
-    std::vector<std::uint8_t> left_range = {};  // scratch of a check [copy] 1: beyond the trusted range
     Delta delta = {};                           // scratch of a sweep
     std::vector<Index> moved = {};              // scratch of a sweep: old copies on other nodes
 

@@ -42,7 +42,6 @@ template <class Look>
 StrainCheck over_all_copies(Engine& engine, Look look) {
     const Index chunks = chunk_count(copies_a_chunk, engine.elements.count);
     engine.strain_parts.resize(static_cast<std::size_t>(chunks));
-    engine.left_range.resize(row(engine.elements.count));
     engine.workers.run(chunks, [&](Index chunk) {
         const auto [begin, end] = chunk_range(chunk, copies_a_chunk, engine.elements.count);
         engine.strain_parts[row(chunk)] = look({begin, end});
@@ -65,7 +64,7 @@ void take_note(Strain& strain, const StrainCheck& now) {
 
 void check_strain_now(Engine& engine) {
     const StrainCheck now = over_all_copies(engine, [&](Range copies) {
-        return check_strain(engine.elements, engine.nodes, engine.copy_density, copies, engine.left_range);
+        return check_strain(engine.elements, engine.nodes, engine.copy_density, copies);
     });
     count_weakened(engine);
     take_note(engine.strain, now);
@@ -77,9 +76,8 @@ void check_strain_if_due(Engine& engine) {
     if (engine.step % bound_interval == 0) { return check_strain_now(engine); }
     const StrainCheck known = {.stretch_min = engine.strain.stretch_min,
                                .stretch_max = engine.strain.stretch_max};
-    const StrainCheck now = over_all_copies(engine, [&](Range copies) {
-        return screen_strain(engine.elements, engine.nodes, known, copies, engine.left_range);
-    });
+    const StrainCheck now = over_all_copies(
+        engine, [&](Range copies) { return screen_strain(engine.elements, engine.nodes, known, copies); });
     count_weakened(engine);
     take_note(engine.strain, now);
 }
