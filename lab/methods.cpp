@@ -209,6 +209,8 @@ std::vector<Vec3> displacement_of(const Simulation& simulation) {
     return u;
 }
 
+std::array<Index, 3> block_cells(Index cells) { return {cells, std::max(3, cells * 4 / 5), cells}; }
+
 Problem hang_block(const std::array<Index, 3>& cells, const Notch& notch) {
     constexpr double mouth = 0.05; // m, x of the sheet
     TetMesh mesh = make_jittered_block(size, cells, notch.jitter, notch.seed);

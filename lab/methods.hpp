@@ -32,6 +32,8 @@ struct Notch {
     double finest = 1;   // width of cells about the tip, as a share of even ones
 };
 
+/// Of the block below, `cells` along its longer edges.
+std::array<Index, 3> block_cells(Index cells);
 /// A block of 0.10 x 0.08 x 0.10 m that hangs by x = 0 and is notched at x = 0.05, from z = 0.10 down.
 /// Without jitter the sheet lies on faces of a mesh of even cells.
 Problem hang_block(const std::array<Index, 3>& cells, const Notch& notch = {});

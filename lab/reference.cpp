@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/reference.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace lab {
@@ -12,8 +11,6 @@ namespace {
 
 constexpr std::array<Index, 3> fine = {20, 4, 20}; // cells
 
-std::array<Index, 3> conforming_cells(Index cells) { return {cells, std::max(3, cells * 4 / 5), cells}; }
-
 } // namespace
 
 std::vector<StoredReference> list_references() {
@@ -23,7 +20,7 @@ std::vector<StoredReference> list_references() {
     };
     const auto add_conforming = [&](const char* name, const Conforming& openings, auto make) {
         for (const auto& [cells, opening] : openings) {
-            add(fmt::format("{}, {} cells, four-node", name, cells), opening, make(conforming_cells(cells)),
+            add(fmt::format("{}, {} cells, four-node", name, cells), opening, make(block_cells(cells)),
                 false);
         }
     };

@@ -40,12 +40,12 @@ MakeProblem notched(Notch notch) {
         own.lean *= farther;
         own.seed = seed;
         own.finest = variant.finest;
-        return hang_block({cells, std::max(3, cells * 4 / 5), cells}, own);
+        return hang_block(block_cells(cells), own);
     };
 }
 
 Problem at_wall(Index cells, unsigned seed, const Variant&) {
-    return split_into_wall({cells, std::max(3, cells * 4 / 5), cells}, Notch{}.jitter, seed);
+    return split_into_wall(block_cells(cells), Notch{}.jitter, seed);
 }
 
 struct Measured {
