@@ -56,30 +56,9 @@ void draw_strips(const std::string& folder, const lab::Report& report) {
     }
 }
 
-/// Solves what is stored, and says how far off that is.
-int check_references(const std::string& folder) {
-    int off = 0;
-    for (const lab::StoredReference& one : lab::list_references()) {
-        const std::optional<double> opening =
-            lab::find_reference_opening(one.problem, one.quadratic, folder + "/calculix");
-        if (!opening) { return refuse("lab: CalculiX (ccx) did not run: install calculix-ccx"); }
-        const double difference = std::abs(*opening / one.stored - 1);
-        off += difference < most_off ? 0 : 1;
-        fmt::print("{:32} {:.7f} m, stored {:.7f}\n", one.name, *opening, one.stored);
-        std::fflush(stdout);
-    }
-    return off == 0 ? done : refuse(fmt::format("lab: {} stored openings are off", off));
-}
-
 } // namespace
 
 int lab(const LabOptions& options) {
-    if (options.references) {
-        if (const Result<void> made = make_folder(options.out); !made) {
-            return refuse(made.error().message);
-        }
-        return check_references(options.out);
-    }
     const std::string scenes = (fs::path(RESECT_WEB_FOLDER) / "../scenes").lexically_normal().string();
     const std::string page = (fs::path(RESECT_WEB_FOLDER) / "dist/report.html").string();
     if (!fs::exists(page)) { return refuse(fmt::format("lab: {} is missing; ./run builds it", page)); }
@@ -110,6 +89,21 @@ int lab(const LabOptions& options) {
     if (!options.quick) { draw_strips(options.out, report); }
     fmt::print("{}/index.html holds the report, the files beside it its figures\n", options.out);
     return done;
+}
+
+int check_references(const LabOptions& options) {
+    if (const Result<void> made = make_folder(options.out); !made) { return refuse(made.error().message); }
+    int off = 0;
+    for (const lab::StoredReference& one : lab::list_references()) {
+        const std::optional<double> opening =
+            lab::find_reference_opening(one.problem, one.quadratic, options.out + "/calculix");
+        if (!opening) { return refuse("lab: CalculiX (ccx) did not run: install calculix-ccx"); }
+        const double difference = std::abs(*opening / one.stored - 1);
+        off += difference < most_off ? 0 : 1;
+        fmt::print("{:32} {:.7f} m, stored {:.7f}\n", one.name, *opening, one.stored);
+        std::fflush(stdout);
+    }
+    return off == 0 ? done : refuse(fmt::format("lab: {} stored openings are off", off));
 }
 
 } // namespace cli

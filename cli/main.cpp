@@ -138,9 +138,12 @@ void add_lab(CLI::App& app, cli::LabOptions& options, int& status) {
     command->add_option("--out", options.out, "folder for index.html, .csv and .vtp files")
         ->capture_default_str();
     command->add_flag("--quick", options.quick, "coarse bodies, in under a minute");
-    command->add_flag("--references", options.references,
-                      "no report: solves the stored reference openings anew by CalculiX, in some minutes");
-    command->callback([&] { status = cli::lab(options); });
+    CLI::App* references = command->add_subcommand(
+        "references", "solves the stored openings anew by CalculiX, in some minutes, and compares");
+    references->fallthrough()->callback([&] { status = cli::check_references(options); });
+    command->callback([&, command] {
+        if (command->get_subcommands().empty()) { status = cli::lab(options); }
+    });
 }
 
 bool has_command(const CLI::App& app, const std::string& name) {

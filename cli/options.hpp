@@ -72,7 +72,6 @@ struct BenchOptions {
 struct LabOptions {
     std::string out = "out/lab";
     bool quick = false;
-    bool references = false;
 };
 
 int run(const RunOptions& options);
@@ -83,6 +82,7 @@ int info(const std::string& path);
 int picture(const PictureOptions& options);
 int bench(const BenchOptions& options);
 int lab(const LabOptions& options);
+int check_references(const LabOptions& options);
 
 /// Prints the line and returns `refused`.
 int refuse(const std::string& line);

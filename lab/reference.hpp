@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Openings of cut blocks that CalculiX 2.20 finds, by find_reference_opening(). Stored, because the fine ones
-// take minutes; tests/lab repeats coarse ones, `resect lab --references` all of them.
+// take minutes; tests/lab repeats coarse ones, `resect lab references` all of them.
 #pragma once
 
 #include <algorithm>
