@@ -57,7 +57,7 @@ struct Energies {
 struct TimeStep {
     double used = 0;       // s
     double bound = 0;      // at rest: no cut lowers it
-    double live_bound = 0; // at the deformation of the last check
+    double live_bound = 0; // of deformed copies, each looked at once in 5000 steps
 };
 
 /// The deformation that checks have met since the clock started: creation, or the end of settle().

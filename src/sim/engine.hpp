@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -19,10 +20,10 @@
 
 namespace resect {
 
-inline constexpr double safety_factor = 0.6;         // of the rest bound (docs/method.md, "The step")
-inline constexpr double viscous_share = 0.1;         // automatic viscous time over the rest bound
-inline constexpr std::int64_t check_interval = 50;   // steps between two looks at the strain
-inline constexpr std::int64_t bound_interval = 1000; // and at the live bound, a multiple of it
+inline constexpr double safety_factor = 0.6;       // of the rest bound (docs/method.md, "The step")
+inline constexpr double viscous_share = 0.1;       // automatic viscous time over the rest bound
+inline constexpr std::int64_t check_interval = 50; // steps between two looks at the strain
+inline constexpr std::int64_t bound_shares = 100;  // looks that it takes to see every copy's live bound
 
 /// Constant after creation.
 struct Model {
@@ -76,6 +77,12 @@ struct Work {
     double settling = 0; // by settle's resets of the velocity
 };
 
+/// The critical step of deformed copies. It costs fifty times a step's work, so copies take turns.
+struct LiveBound {
+    double known = 0;                                       // s, the least of the last round and of this one
+    double round = std::numeric_limits<double>::infinity(); // s, the least of this one so far
+};
+
 /// What steps, commands and cuts change, but for the cutter's part: a snapshot is a copy of both.
 struct EngineState {
     Elements elements = {};
@@ -97,7 +104,7 @@ struct EngineState {
     Work work = {};
     double elastic_start = 0; // J
     Strain strain = {};
-    double live_bound = 0; // s
+    LiveBound live_bound = {};
 
     std::vector<std::uint8_t> fixed = {}; // [node] 1: held or prescribed
     std::vector<float> copy_density = {}; // [copy] kg/m^3
@@ -172,7 +179,7 @@ bool step_motion(Engine& engine);
 
 // watch.cpp
 void check_strain_now(Engine& engine);
-/// What is due of both looks in this step.
+/// What is due in this step: all stretches, and the live bounds of a share of the copies.
 void check_strain_if_due(Engine& engine);
 /// The element that went wrong in a step that step_motion refused, and why, in words.
 Index find_diverged_element(const Engine& engine, std::string& reason);

@@ -210,7 +210,7 @@ Energies Simulation::energies() const {
 TimeStep Simulation::time_step() const {
     return {.used = engine_->tissue.time_step,
             .bound = engine_->tissue.rest_bound,
-            .live_bound = engine_->live_bound};
+            .live_bound = engine_->live_bound.known};
 }
 
 Strain Simulation::strain() const { return engine_->strain; }

@@ -10,7 +10,7 @@ namespace resect {
 
 namespace {
 
-constexpr Index copies_a_chunk = 512;
+constexpr Index screened_a_chunk = 512, checked_a_chunk = 32; // copies
 
 /// The node that moves fastest in the step that was refused; one whose motion is no number before all others.
 Index find_fastest_node(const NodeArrays& nodes) {
@@ -37,20 +37,36 @@ double present_volume(const Engine& engine, Index copy) {
     return signed_volume(at[0], at[1], at[2], at[3]);
 }
 
-/// `look` is called for ranges of copies.
+/// `look` is called for parts of the range.
 template <class Look>
-StrainCheck over_all_copies(Engine& engine, Look look) {
-    const Index chunks = chunk_count(copies_a_chunk, engine.elements.count);
+StrainCheck over_copies(Engine& engine, Range copies, Index copies_a_chunk, Look look) {
+    const Index count = copies.end - copies.begin, chunks = chunk_count(copies_a_chunk, count);
     engine.strain_parts.resize(static_cast<std::size_t>(chunks));
     engine.workers.run(chunks, [&](Index chunk) {
-        const auto [begin, end] = chunk_range(chunk, copies_a_chunk, engine.elements.count);
-        engine.strain_parts[row(chunk)] = look({begin, end});
+        const auto [begin, end] = chunk_range(chunk, copies_a_chunk, count);
+        engine.strain_parts[row(chunk)] = look({copies.begin + begin, copies.begin + end});
     });
     StrainCheck all;
     for (const StrainCheck& part : engine.strain_parts) {
         all = merge(all, part);
     }
     return all;
+}
+
+StrainCheck check_copies(Engine& engine, Range copies) {
+    return over_copies(engine, copies, checked_a_chunk, [&](Range part) {
+        return check_strain(engine.elements, engine.nodes, engine.copy_density, part);
+    });
+}
+
+/// Of the copies whose turn it is by the number of the step.
+void look_at_bounds(Engine& engine) {
+    const std::int64_t share = engine.step / check_interval % bound_shares, count = engine.elements.count;
+    const auto begin_of = [&](std::int64_t n) { return static_cast<Index>(count * n / bound_shares); };
+    auto& [known, round] = engine.live_bound;
+    round = std::min(round, check_copies(engine, {begin_of(share), begin_of(share + 1)}).live_bound);
+    known = std::min(known, round);
+    if (share == bound_shares - 1) { engine.live_bound = {.known = round}; }
 }
 
 void take_note(Strain& strain, const StrainCheck& now) {
@@ -63,23 +79,23 @@ void take_note(Strain& strain, const StrainCheck& now) {
 } // namespace
 
 void check_strain_now(Engine& engine) {
-    const StrainCheck now = over_all_copies(engine, [&](Range copies) {
-        return check_strain(engine.elements, engine.nodes, engine.copy_density, copies);
-    });
+    const StrainCheck now = check_copies(engine, {0, engine.elements.count});
     count_weakened(engine);
     take_note(engine.strain, now);
-    engine.live_bound = now.live_bound;
+    engine.live_bound = {.known = now.live_bound};
 }
 
 void check_strain_if_due(Engine& engine) {
     if (engine.step % check_interval != 0) { return; }
-    if (engine.step % bound_interval == 0) { return check_strain_now(engine); }
     const StrainCheck known = {.stretch_min = engine.strain.stretch_min,
                                .stretch_max = engine.strain.stretch_max};
-    const StrainCheck now = over_all_copies(
-        engine, [&](Range copies) { return screen_strain(engine.elements, engine.nodes, known, copies); });
+    const StrainCheck now =
+        over_copies(engine, {0, engine.elements.count}, screened_a_chunk, [&](Range copies) {
+            return screen_strain(engine.elements, engine.nodes, known, copies);
+        });
     count_weakened(engine);
     take_note(engine.strain, now);
+    look_at_bounds(engine);
 }
 
 Index find_diverged_element(const Engine& engine, std::string& reason) {
@@ -102,7 +118,7 @@ Index find_diverged_element(const Engine& engine, std::string& reason) {
     reason = fmt::format(
         "diverged in step {}: a node of element {} (volume ratio {:.3g}) would move at {:.3g} m/s; "
         "lower the time step (used {:.3g} s, live bound {:.3g} s), the load or the damping",
-        engine.step + 1, element, least, speed, engine.tissue.time_step, engine.live_bound);
+        engine.step + 1, element, least, speed, engine.tissue.time_step, engine.live_bound.known);
     return element;
 }
 
