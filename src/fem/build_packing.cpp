@@ -14,7 +14,7 @@ namespace {
 
 constexpr Index copies_a_part = 3000;
 constexpr Index parts_at_most = 64;
-constexpr Index copies_a_cell = 640;
+constexpr Index copies_a_cell = 1280;
 constexpr Index copies_a_leaf = 32; // of the order within a part
 
 float viscous_time_of(const Elements& elements, Index copy) {
@@ -150,32 +150,11 @@ void reserve_rows(Part& part) {
     }
 }
 
-/// Cells of copies that follow one another.
-void divide_part(Packing& packing, Part& part, std::span<const Index> copies) {
-    const std::size_t count = std::max<std::size_t>(1, copies.size() / row(copies_a_cell));
-    for (std::size_t cell = 0; cell < count; ++cell) {
-        const std::size_t begin = copies.size() * cell / count, end = copies.size() * (cell + 1) / count;
-        part.cells.emplace_back().copies.assign(copies.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                copies.begin() + static_cast<std::ptrdiff_t>(end));
-        for (const Index copy : part.cells.back().copies) {
-            packing.seats[row(copy)].cell = static_cast<Index>(cell);
-        }
-    }
-}
-
-} // namespace
-
-void sort_apart(const Elements& elements, const NodeArrays& nodes, std::span<Index> copies,
-                std::size_t count) {
-    std::vector<PlacedCopy> places = place_copies(elements, nodes, copies);
-    halve(places, count);
-    std::transform(places.begin(), places.end(), copies.begin(),
-                   [](const PlacedCopy& place) { return place.copy; });
-}
-
-void pack_cell(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part, Index cell) {
+/// Covers copies by fans and adds their blocks, those of one material after the other; they sit nowhere.
+void pack_copies(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part,
+                 std::span<const Index> copies) {
     std::map<float, std::vector<Index>> by_material;
-    for (const Index copy : packing.parts[row(part)].cells[row(cell)].copies) {
+    for (const Index copy : copies) {
         by_material[shear_over_resistance(elements, copy)].push_back(copy);
     }
     for (const auto& [ratio, alike] : by_material) {
@@ -191,6 +170,36 @@ void pack_cell(Packing& packing, const Elements& elements, const NodeArrays& nod
         }
         append_fans(packing, elements, nodes, part, fans, ratio);
     }
+}
+
+/// Cells of blocks that follow one another.
+void divide_part(Packing& packing, Part& part) {
+    for (const FanBlock& block : part.blocks) {
+        if (part.cells.empty() || std::ssize(part.cells.back().copies) >= copies_a_cell) {
+            part.cells.emplace_back();
+        }
+        for (Index tet = block.first_tet; tet < block.first_tet + block.length; ++tet) {
+            for (const Index copy : part.copies[row(tet)].at) {
+                if (copy < 0) { continue; }
+                part.cells.back().copies.push_back(copy);
+                packing.seats[row(copy)].cell = static_cast<Index>(part.cells.size()) - 1;
+            }
+        }
+    }
+}
+
+} // namespace
+
+void sort_apart(const Elements& elements, const NodeArrays& nodes, std::span<Index> copies,
+                std::size_t count) {
+    std::vector<PlacedCopy> places = place_copies(elements, nodes, copies);
+    halve(places, count);
+    std::transform(places.begin(), places.end(), copies.begin(),
+                   [](const PlacedCopy& place) { return place.copy; });
+}
+
+void pack_cell(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part, Index cell) {
+    pack_copies(packing, elements, nodes, part, packing.parts[row(part)].cells[row(cell)].copies);
     packing.parts[row(part)].cells[row(cell)].moved = 0;
 }
 
@@ -244,10 +253,8 @@ Packing build_packing(const Elements& elements, const NodeArrays& nodes) {
         for (const Index node : used) {
             slot_for(packing, nodes, index, node);
         }
-        divide_part(packing, packing.parts.back(), copies);
-        for (std::size_t cell = 0; cell < packing.parts.back().cells.size(); ++cell) {
-            pack_cell(packing, elements, nodes, index, static_cast<Index>(cell));
-        }
+        pack_copies(packing, elements, nodes, index, copies);
+        divide_part(packing, packing.parts.back());
         reserve_rows(packing.parts.back());
     }
     return packing;

@@ -2,9 +2,8 @@
 #include "fem/fans.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <cstdint>
-#include <numeric>
 
 #include "base/index.hpp"
 
@@ -19,7 +18,8 @@ struct Link {
 
 struct EdgeRow {
     Index first = 0, count = 0; // rows of links
-    float length_squared = 0;   // m^2
+    std::uint32_t rank = 0; // by length, in steps of a part in a thousand, so that rounding does not shuffle
+                            // edges of equal length
 };
 
 /// The pair (from, to) of corners in the order that makes (edge, from, to) a positive tet.
@@ -69,18 +69,14 @@ std::vector<EdgeRow> find_edges(std::span<const Link> links, std::span<const Vec
         const Link& link = links[i];
         if (i == 0 || link.a != links[i - 1].a || link.b != links[i - 1].b) {
             const Vec3f along = at[row(link.b)] - at[row(link.a)];
-            edges.push_back({static_cast<Index>(i), 0, dot(along, along)});
+            // The exponent and ten bits of the mantissa.
+            edges.push_back(
+                {static_cast<Index>(i), 0, std::bit_cast<std::uint32_t>(dot(along, along)) >> 13U});
         }
         ++edges.back().count;
     }
-    // In steps of a part in a thousand, so that rounding does not shuffle edges of equal length.
-    const auto rank = [](const EdgeRow& edge) {
-        int exponent = 0;
-        const float mantissa = std::frexp(edge.length_squared, &exponent);
-        return 1024 * exponent + static_cast<int>(1024 * mantissa);
-    };
     std::stable_sort(edges.begin(), edges.end(),
-                     [&](const EdgeRow& p, const EdgeRow& q) { return rank(p) > rank(q); });
+                     [](const EdgeRow& p, const EdgeRow& q) { return p.rank > q.rank; });
     return edges;
 }
 

@@ -7,8 +7,8 @@
 namespace resect {
 namespace {
 
-constexpr Index worn = 16;               // a cell is: one in so many of its copies has been moved
-constexpr std::size_t most_packed = 960; // copies at a time
+constexpr Index worn = 32;               // a cell is: one in so many of its copies has been moved
+constexpr std::size_t most_packed = 1920; // copies at a time
 
 /// The row of the cell with the largest share of copies moved, or -1 if none is worn.
 Index find_worn_cell(const Part& part) {
