@@ -22,7 +22,7 @@ constexpr double density = 1000;     // kg/m^3
 constexpr double blade_speed = 0.1;  // m/s
 constexpr double deepest = 5;        // lengths that a blade goes down at most
 constexpr double clearance = 0.005;  // m, above and below
-constexpr int check_steps = 50;      // Simulation looks at the strain every so many
+constexpr int steps_a_pose = 50;     // of the blade, and between two looks at what the simulation reports
 constexpr int random_strokes = 20;
 constexpr double degree = std::numbers::pi / 180;
 
@@ -81,7 +81,7 @@ public:
 
     /// Some steps up to the next look at the strain; false once the run has failed.
     bool advance() {
-        const StepReport report = simulation_.advance(check_steps * simulation_.time_step().used);
+        const StepReport report = simulation_.advance(steps_a_pose * simulation_.time_step().used);
         row_.steps += report.steps;
         row_.elements_cut += report.cut.elements_cut;
         row_.pieces = report.cut.pieces;
@@ -95,7 +95,7 @@ public:
     bool sweep(const Stroke& stroke) {
         area_ = 0;
         must(simulation_.apply(MoveBlade{.to = stroke.start}));
-        const double stride = blade_speed * check_steps * simulation_.time_step().used;
+        const double stride = blade_speed * steps_a_pose * simulation_.time_step().used;
         for (double at = 0; at < stroke.travel && area_ < stroke.area; at += stride) {
             if (stroke.through && pose(stroke, at).tip[2] < lowest() - clearance) { break; }
             must(simulation_.apply(MoveBlade{.to = pose(stroke, at + stride)}));
@@ -279,7 +279,7 @@ MatrixRow run_cell(const MatrixCell& cell, const MatrixSize& size) {
 
     Trial trial(must(Simulation::create(setup)), row);
     if (cut(trial, setup, row, random)) {
-        for (std::int64_t step = 0; step < size.steps_after && trial.advance(); step += check_steps) {}
+        for (std::int64_t step = 0; step < size.steps_after && trial.advance(); step += steps_a_pose) {}
     }
     const Strain strain = trial.simulation().strain();
     row.inverted_end = strain.elements_inverted;

@@ -20,10 +20,10 @@
 
 namespace resect {
 
-inline constexpr double safety_factor = 0.6;       // of the rest bound (docs/method.md, "The step")
-inline constexpr double viscous_share = 0.1;       // automatic viscous time over the rest bound
-inline constexpr std::int64_t check_interval = 50; // steps between two looks at the strain
-inline constexpr std::int64_t bound_shares = 100;  // looks that it takes to see every copy's live bound
+inline constexpr double safety_factor = 0.6;        // of the rest bound (docs/method.md, "The step")
+inline constexpr double viscous_share = 0.1;        // automatic viscous time over the rest bound
+inline constexpr std::int64_t check_interval = 100; // steps between two looks at the strain
+inline constexpr std::int64_t bound_shares = 50;    // looks that it takes to see every copy's live bound
 
 /// Constant after creation.
 struct Model {
