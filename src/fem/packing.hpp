@@ -21,7 +21,9 @@ struct FanCopies {
 /// those of single tets.
 struct Cell {
     std::vector<Index> copies = {};
-    Index moved = 0; // copies seated alone since it was packed
+    Index moved = 0;        // copies seated alone since it was packed
+    Index moved_before = 0; // the same at its part's last turn in repack()
+    Index quiet = 0;        // turns since another copy was moved
 };
 
 /// Copies that lie together and share a viscous time, in fans, with their own positions and forces of the
@@ -81,7 +83,8 @@ void reseat_copy(Packing& packing, const Elements& elements, const NodeArrays& n
 /// A copy of which only the weight or the material changed.
 void refresh_copy(Packing& packing, const Elements& elements, Index copy);
 
-/// Packs the cell of a part anew of which cuts have moved the most, if they have moved enough.
+/// A turn of a part: packs the cell anew of which cuts have moved the most, if they have moved enough and,
+/// where it is not very much, seem to be done with it.
 void repack(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part);
 
 /// The four slots of a seated copy, in the order of its fan.

@@ -7,17 +7,32 @@
 namespace resect {
 namespace {
 
-constexpr Index worn = 32;               // a cell is: one in so many of its copies has been moved
+constexpr Index worn = 32, very_worn = 8; // a cell is: one in so many of its copies has been moved
+constexpr Index quiet_turns = 40;         // that a cell waits for cuts to be done with it
 constexpr std::size_t most_packed = 1920; // copies at a time
 
-/// The row of the cell with the largest share of copies moved, or -1 if none is worn.
+void count_turn(Cell& cell) {
+    cell.quiet = cell.moved == cell.moved_before ? std::min(cell.quiet + 1, quiet_turns) : 0;
+    cell.moved_before = cell.moved;
+}
+
+bool is_due(const Cell& cell) {
+    const Index least = cell.quiet == quiet_turns ? worn : very_worn;
+    return std::int64_t{least} * cell.moved > std::ssize(cell.copies);
+}
+
+/// The row of the due cell with the largest share of copies moved, or -1.
 Index find_worn_cell(const Part& part) {
-    const auto is_less_worn = [](const Cell& a, const Cell& b) {
-        return std::int64_t{a.moved} * std::ssize(b.copies) < std::int64_t{b.moved} * std::ssize(a.copies);
-    };
-    const auto most = std::max_element(part.cells.begin(), part.cells.end(), is_less_worn);
-    const bool is_worn = std::int64_t{worn} * most->moved > std::ssize(most->copies);
-    return is_worn ? static_cast<Index>(most - part.cells.begin()) : -1;
+    Index most = -1;
+    for (std::size_t at = 0; at < part.cells.size(); ++at) {
+        const Cell& cell = part.cells[at];
+        if (!is_due(cell)) { continue; }
+        const bool is_most =
+            most < 0 || std::int64_t{cell.moved} * std::ssize(part.cells[row(most)].copies) >
+                            std::int64_t{part.cells[row(most)].moved} * std::ssize(cell.copies);
+        if (is_most) { most = static_cast<Index>(at); }
+    }
+    return most;
 }
 
 /// One half of a cell that has grown becomes a cell of its own, which comes next.
@@ -59,6 +74,8 @@ void drop_empty_blocks(Part& part) {
 } // namespace
 
 void repack(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part_row) {
+    std::vector<Cell>& cells = packing.parts[row(part_row)].cells;
+    std::for_each(cells.begin(), cells.end(), count_turn);
     const Index cell = find_worn_cell(packing.parts[row(part_row)]);
     if (cell < 0) { return; }
     if (packing.parts[row(part_row)].cells[row(cell)].copies.size() > most_packed) {

@@ -85,6 +85,8 @@ void archive_packing(Archive& archive, Packing& packing) {
         archive_each(archive, part.cells, [&](Cell& cell) {
             archive.rows(cell.copies);
             archive.value(cell.moved);
+            archive.value(cell.moved_before);
+            archive.value(cell.quiet);
         });
         archive.rows(part.dropped);
     });
