@@ -129,13 +129,13 @@ public:
         return nullptr;
     }
 
-    /// Statuses until there are so many pieces; false where none came.
-    bool wait_for_pieces(int count) {
+    /// Reads statuses up to the first with so many pieces; null where none came.
+    nlohmann::json wait_for_pieces(int count) {
         for (int i = 0; i < 100 && is_open_; ++i) {
-            const nlohmann::json status = read_until("status");
-            if (status.is_object() && status["piece_count"] == count) { return true; }
+            nlohmann::json status = read_until("status");
+            if (status.is_object() && status["piece_count"] == count) { return status; }
         }
-        return false;
+        return {};
     }
 
     bool is_open() const { return is_open_; }

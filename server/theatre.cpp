@@ -179,7 +179,6 @@ void Theatre::advance(double seconds) {
     const double cut = report.cut.us.total();
     pacer_.note(report.steps, seconds_since(began) - 1e-6 * cut);
     figures_.cut_us = std::max(figures_.cut_us, cut);
-    figures_.cut_elements += report.cut.elements_cut;
     if (report.status == Status::diverged) {
         figures_.diverged = true;
         figures_.reason = report.reason;
