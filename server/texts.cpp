@@ -2,7 +2,6 @@
 #include "texts.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -46,18 +45,6 @@ Json list_materials(std::span<const Material> materials) {
 const char* state_of(const Figures& figures) {
     if (figures.diverged) { return "diverged"; }
     return figures.paused ? "paused" : "running";
-}
-
-/// Elements that have more than one copy now.
-Index count_cut_elements(const Copies& copies) {
-    std::vector<std::uint8_t> seen(copies.element.size(), 0); // times, at most 2
-    Index count = 0;
-    for (const Index element : copies.element) {
-        std::uint8_t& times = seen[static_cast<std::size_t>(element)];
-        if (times == 1) { ++count; }
-        times = static_cast<std::uint8_t>(std::min(times + 1, 2));
-    }
-    return count;
 }
 
 } // namespace
@@ -112,7 +99,7 @@ std::string status_text(Simulation& simulation, const Figures& figures) {
            {"surface_us", figures.surface_us},
            {"nodes", simulation.nodes().rest.size()},
            {"elements", simulation.copies().node.size()},
-           {"cut_elements", count_cut_elements(simulation.copies())},
+           {"cut_elements", figures.cut_elements},
            {"pieces", largest_pieces(pieces)},
            {"piece_count", pieces.size()},
            {"energies",

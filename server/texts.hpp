@@ -24,6 +24,7 @@ struct Figures {
     double step_rate = 0;           // steps in a s
     double tick_ms = 0, cut_us = 0; // longest since the last status
     double surface_us = 0;
+    resect::Index cut_elements = 0;
     std::size_t clients = 0;
 };
 

@@ -2,6 +2,7 @@
 #include "theatre.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <ctime>
 #include <filesystem>
 #include <fmt/format.h>
@@ -33,6 +34,18 @@ std::string stamp() {
 std::string read_bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Elements that have more than one copy; a lattice has a few that no cut made.
+Index count_split_elements(const Copies& copies) {
+    std::vector<std::uint8_t> seen(copies.element.size(), 0); // times, at most 2
+    Index count = 0;
+    for (const Index element : copies.element) {
+        std::uint8_t& times = seen[static_cast<std::size_t>(element)];
+        if (times == 1) { ++count; }
+        times = static_cast<std::uint8_t>(std::min(times + 1, 2));
+    }
+    return count;
 }
 
 } // namespace
@@ -143,6 +156,7 @@ Result<void> Theatre::start(const SceneEntry& entry) {
     scene_->number(++scene_number_);
     pacer_ = {};
     figures_ = {};
+    split_at_start_ = count_split_elements(scene_->simulation().copies());
     paused_ = false;
     speed_ = 1;
     time_at_status_ = scene_->simulation().time();
@@ -220,6 +234,7 @@ void Theatre::publish(Clock::time_point now) {
     figures_.step_rate = static_cast<double>(simulation.steps() - step_at_status_) / passed;
     figures_.real_time_factor = pacer_.real_time_factor(simulation.time_step().used);
     figures_.clients = clients_.count();
+    figures_.cut_elements = count_split_elements(simulation.copies()) - split_at_start_;
     if (clients_.count() > 0) { clients_.send_status(status_text(simulation, figures_)); }
     figures_.tick_ms = figures_.cut_us = figures_.surface_us = 0;
     last_status_ = now;

@@ -52,6 +52,7 @@ private:
     bool paused_ = false;
     double speed_ = 1;
     Figures figures_ = {};
+    Index split_at_start_ = 0; // elements
     Clock::time_point last_status_ = {};
     double time_at_status_ = 0;
     std::int64_t step_at_status_ = 0;
