@@ -82,28 +82,27 @@ try {
   await roll(0.8, [660, 560]);
   await view('Stress');
   await roll(1.5);
+  await view('Elements');
+  await roll(1.2);
   await view('Tissue');
   await page.mouse.down({ button: 'right' });
-  await roll(0.9, [740, 570]);
-  await roll(0.9, [660, 560]);
+  await roll(1.4, [740, 570]);
+  await roll(1.4, [660, 560]);
   await page.mouse.up({ button: 'right' });
   await page.keyboard.press('2');
   await roll(0.7, [890, 200]);
   await page.mouse.down();
   await roll(0.4, [760, 670]);
-  // The page moves this blade frame by frame of its own, which are slow here.
-  await ask(page, 'resect.send({ speed: 0.01 })');
   await page.mouse.up();
   await roll(0.8);
-  await ask(page, `resect.send({ speed: ${slow} })`);
-  await roll(0.5, [860, 690]);
+  await roll(0.8, [860, 690]);
   await view('Pieces');
-  await roll(1);
+  await roll(1.4);
   await view('Tissue');
   await undo();
-  await roll(1);
+  await roll(1.2);
   await undo();
-  await roll(1.5);
+  await roll(1.9);
 } finally {
   stopEngine(engine);
   await browser.close();

@@ -82,6 +82,99 @@ async function lookAround(page) {
   await page.keyboard.press('f');
 }
 
+/** Two points part the body, which stands still; the probe then tells of a piece. @param {import('playwright-core').Page} page */
+async function partAndProbe(page) {
+  await page.keyboard.press('Space');
+  await until(page, 'resect.status.paused');
+  await page.keyboard.press('2');
+  await page.waitForTimeout(500); // the view was just framed
+  const ends = await ask(page, '[[0.03, 0.14, 0], [0.03, -0.14, 0]].map(resect.screenOf)');
+  await stroke(page, ends[0], ends[1]);
+  await until(page, 'resect.status.pieces[1]?.volume > 1e-4');
+  await page.keyboard.press('4');
+  await page.mouse.move(560, 400);
+  await page.waitForSelector('#readout:not([hidden])', { timeout: patience });
+  await until(page, `/von mises stress [\\d.]+ kPa/i.test(document.querySelector('#readout').innerText)`);
+  assert.match(await page.innerText('#readout'), /Moved by [\d.]+ mm[^]*Piece \d+: [\d.]+ cm³, \d+ g/);
+  await page.screenshot({ path: join(out, 'page_probe.png') });
+  await page.keyboard.press('Control+z');
+  await until(page, 'resect.status.piece_count === 1');
+  await page.keyboard.press('Space');
+}
+
+/** @param {import('playwright-core').Page} page */
+async function checkNames(page) {
+  const nameless = await ask(page, `[...document.querySelectorAll('button, input, select, summary, canvas, [role]')]
+    .filter((one) => !(one.ariaLabel || one.getAttribute('aria-labelledby') || one.title || one.innerText || one.labels?.[0]?.innerText || one.textContent.trim()))
+    .filter((one) => !one.matches('.uplot *, [role=status]'))
+    .map((one) => one.outerHTML.slice(0, 80))`);
+  assert.deepEqual(nameless, [], 'every control has a name');
+}
+
+/** @param {import('playwright-core').Page} page */
+async function saveAll(page) {
+  const kept = async (/** @type {() => Promise<void>} */ act) => {
+    const saving = page.waitForEvent('download', { timeout: patience });
+    await act();
+    const file = join(out, (await saving).suggestedFilename());
+    await (await saving).saveAs(file);
+    return readFileSync(file);
+  };
+  assert.equal((await kept(() => page.keyboard.press('i'))).subarray(1, 4).toString(), 'PNG');
+  await page.keyboard.press('o');
+  await page.waitForTimeout(4000); // a body at rest is filmed, too; processors encode slowly
+  assert.ok((await kept(() => page.keyboard.press('o'))).length > 1000, 'there is a film');
+  for (const [what, begin] of [['surface.obj', /^#|^o |^v /], ['mesh.vtu', /^<\?xml|^<VTKFile/]]) {
+    const text = await kept(async () => {
+      await page.keyboard.press('d');
+      await page.click(`dialog button[value="${what}"]`);
+    });
+    assert.match(text.subarray(0, 200).toString(), /** @type {RegExp} */ (begin));
+  }
+}
+
+/** A pen cuts as a mouse does; one finger cuts, two turn and zoom. @param {import('playwright-core').Browser} browser @param {string} address */
+async function usePenAndFingers(browser, address) {
+  const context = await browser.newContext({ viewport: { width: 1024, height: 768 }, hasTouch: true });
+  const page = await context.newPage();
+  await page.goto(`${address}?quality=low`);
+  await until(page, 'window.resect?.ready && resect.driving');
+  await page.tap('#hint-close');
+  const devtools = await context.newCDPSession(page);
+  const steps = 12;
+  /** @param {'mousePressed' | 'mouseMoved' | 'mouseReleased'} type @param {number} i */
+  const pen = (type, i) => devtools.send('Input.dispatchMouseEvent', { type, x: 420 + 5 * i, y: 260 + 12 * i, button: 'left', buttons: 1, clickCount: 1, pointerType: 'pen' });
+  await pen('mousePressed', 0);
+  for (let i = 1; i <= steps; ++i) {
+    await pen('mouseMoved', i);
+    await page.waitForTimeout(40);
+  }
+  await pen('mouseReleased', steps);
+  await until(page, 'resect.status.strokes === 1 && resect.status.cut_elements > 20');
+
+  /** @param {'touchStart' | 'touchMove' | 'touchEnd'} type @param {number[][]} points */
+  const touch = async (type, ...points) => {
+    await devtools.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    await page.waitForTimeout(40);
+  };
+  await touch('touchStart', [380, 300]);
+  for (let i = 1; i <= steps; ++i) await touch('touchMove', [380 + 3 * i, 300 + 10 * i]);
+  await touch('touchEnd');
+  await until(page, 'resect.status.strokes === 2');
+  const [cut, away] = await ask(page, '[resect.status.cut_elements, resect.distance]');
+  await touch('touchStart', [400, 350]);
+  await touch('touchStart', [400, 350], [480, 350]);
+  for (let i = 1; i <= steps; ++i) await touch('touchMove', [400 - 8 * i, 350], [480 + 8 * i, 350]);
+  await touch('touchEnd');
+  await page.waitForTimeout(500);
+  assert.ok((await ask(page, 'resect.distance')) < 0.8 * away, 'fingers that part come nearer');
+  assert.ok((await ask(page, 'resect.status.cut_elements')) < cut + 20, 'a pinch is no cut');
+  await page.screenshot({ path: join(out, 'page_tablet.png') });
+  await ask(page, 'resect.send({ reset: true })');
+  await until(page, 'resect.status.strokes === 0');
+  await context.close();
+}
+
 /** The sliders show what the tissue is, whoever changed it. @param {import('playwright-core').Page} page */
 async function changeMaterial(page) {
   for (const young of [8000, 5000]) {
@@ -171,8 +264,11 @@ try {
   await page.screenshot({ path: join(out, 'page_start.png') });
   await cutGraspAndUndo(page);
   await lookAround(page);
+  await partAndProbe(page);
+  await checkNames(page);
   await changeMaterial(page);
   await saveAndReplay(page);
+  await saveAll(page);
   await changeScenes(page);
   assert.deepEqual(complaints, [], 'no error in the console');
 
@@ -181,6 +277,8 @@ try {
   await page.screenshot({ path: join(out, 'page_engine_gone.png') });
   ({ engine } = await start(first.port));
   await until(page, 'document.getElementById("curtain").hidden && resect.ready && resect.scene.name === "liver"');
+  await page.goto('about:blank'); // another drives
+  await usePenAndFingers(browser, address);
   await measure(page, address);
   await measureScript(page);
   console.log('the page works');

@@ -2,8 +2,8 @@
 import { Plan, type Edge, type StrokeTrace } from './overlays.ts';
 import { arrayOf, type Room, type Tool } from './tool.ts';
 
-/** Frames that the blade takes from one end of the line to the other. */
-const frames = 40;
+/** Of the blade, from one end of the line to the other, in poses that a page draws one by one if it is quick enough. */
+const seconds = 0.67, poses = 40;
 
 /** Two points on the screen: a blade along the view goes from one to the other, right through the body. */
 export class LineTool implements Tool {
@@ -12,10 +12,16 @@ export class LineTool implements Tool {
   private readonly plan: Plan;
   private start: [number, number] | undefined;
   private way: Edge[] = [];
+  /** Poses that it is time for, at the last tick. */
+  private due = 0;
+  private ticked = 0;
+  private readonly speed: () => number;
 
-  constructor(room: Room, trace: StrokeTrace) {
+  /** `speed` is that of the blade's clock: slow motion slows it, too. */
+  constructor(room: Room, trace: StrokeTrace, speed: () => number) {
     this.room = room;
     this.trace = trace;
+    this.speed = speed;
     this.plan = new Plan(room.stage.scene);
   }
 
@@ -39,16 +45,24 @@ export class LineTool implements Tool {
     this.plan.hide();
     if (!from || Math.hypot(x - from[0], y - from[1]) < 8) return;
     const a = this.edgeAt(...from), b = this.edgeAt(x, y);
-    this.way = Array.from({ length: frames + 1 }, (_, i) => ({
-      heel: a.heel.clone().lerp(b.heel, i / frames),
-      tip: a.tip.clone().lerp(b.tip, i / frames),
+    this.way = Array.from({ length: poses + 1 }, (_, i) => ({
+      heel: a.heel.clone().lerp(b.heel, i / poses),
+      tip: a.tip.clone().lerp(b.tip, i / poses),
     }));
+    this.due = 1;
+    this.ticked = performance.now();
     this.trace.start();
   }
 
   tick(): void {
-    const edge = this.way.shift();
-    if (!edge) return;
+    if (this.way.length === 0) return;
+    const now = performance.now();
+    this.due += ((poses / seconds) * this.speed() * (now - this.ticked)) / 1000;
+    this.ticked = now;
+    for (; this.due >= 1 && this.way.length > 0; --this.due) this.goTo(this.way.shift()!);
+  }
+
+  private goTo(edge: Edge): void {
     this.room.connection.send({ command: { move_blade: { blade: 0, heel: arrayOf(edge.heel), tip: arrayOf(edge.tip) } } });
     this.trace.add(edge);
     if (this.way.length > 0) return;

@@ -92,7 +92,7 @@ class Simulator {
     this.elements = new ElementLines(this.stage.scene);
     this.tools = {
       scalpel: new ScalpelTool(room, new ScalpelModel(this.stage.scene), trace),
-      line: new LineTool(room, trace),
+      line: new LineTool(room, trace, () => (this.status?.paused ? 1 : this.status?.speed ?? 1)),
       grasp: new GraspTool(room, new GraspMarkers(this.stage.scene)),
       probe: new ProbeTool(room, () => this.status?.pieces ?? []),
       turn: turnTool,
@@ -395,7 +395,8 @@ class Simulator {
   private draw(now: number): void {
     requestAnimationFrame((next) => this.draw(next));
     const began = performance.now();
-    if (this.pointer.tick()) this.isDirty = true;
+    // A film has a frame only where something is drawn.
+    if (this.pointer.tick() || this.film.isOn) this.isDirty = true;
     this.tools[this.tool].tick?.();
     if (!this.isDirty) {
       this.lastDraw = 0;
@@ -464,6 +465,8 @@ function open(simulator: Simulator): object {
     get driving() { return simulator.driving; },
     get scripts() { return simulator.scripts; },
     get latency() { return simulator.latency; },
+    /** From the camera to what it turns round. */
+    get distance() { return simulator.stage.camera.position.distanceTo(simulator.stage.controls.target); },
     get heading() { return simulator.stage.camera.getWorldDirection(new Vector3()).toArray(); },
     screenOf: (point: [number, number, number]) => simulator.stage.screenOf(new Vector3(...point)),
     pick: (x: number, y: number) => simulator.pick(x, y),
