@@ -151,8 +151,9 @@ void leave_seat(Packing& packing, Index copy) {
     clear_tet(packing, from);
     Part& part = packing.parts[row(from.part)];
     const bool is_alone = part.blocks[row(block_of(part, from.tet))].length == 1;
-    const bool is_spare = std::find(part.spare.begin(), part.spare.end(), from.tet) != part.spare.end();
-    if (is_alone && !is_spare) { part.spare.push_back(from.tet); }
+    if (is_alone && std::find(part.spare.begin(), part.spare.end(), from.tet) == part.spare.end()) {
+        part.spare.push_back(from.tet);
+    }
 }
 
 void seat_new_copy(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index copy,
