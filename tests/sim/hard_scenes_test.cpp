@@ -92,6 +92,19 @@ TEST_CASE("the light nodes of a kicked free liver calm down") {
     CHECK(simulation.strain().elements_inverted == 0);
 }
 
+TEST_CASE("the live bound falls where copies are deformed and rises when they no longer are") {
+    constexpr int round = 5000; // steps in which each copy is looked at once
+    const Setup setup = free_block(6, 5e3);
+    Simulation simulation = must(Simulation::create(setup));
+    const auto hold = [&](Vec3 (*displacement)(const Vec3&)) {
+        must(simulation.apply(displace(setup.body, displacement)));
+        simulation.advance((2 * round + 1) * simulation.time_step().used);
+        return simulation.time_step().live_bound / simulation.time_step().bound;
+    };
+    CHECK(hold([](const Vec3& x) { return Vec3{0, 0, -0.3 * x[2]}; }) < 0.9);
+    CHECK(hold([](const Vec3&) { return Vec3{}; }) == doctest::Approx(1).epsilon(1e-3));
+}
+
 TEST_CASE("a block that was crushed flat comes back to rest") {
     Setup setup = free_block(6, 5e3);
     setup.damping = 2;
