@@ -103,13 +103,16 @@ Result<lab::Section> reproduce_cuboid(const std::string& scenes, bool quick) {
                              "above, and the incision grows open as the block goes on sagging.",
                      .stills = film->stills,
                      .camera = {{0.18, -0.32, 0.13}, {0.042, 0.03, 0.0}, 22}};
-    lab::Plot plot{.name = "cuboid_opening",
-                   .title = "Scene 1: opening of the incision",
-                   .says = "The widest distance between the two sides: it opens behind the knife, and swings "
-                           "with the block.",
-                   .x_label = "time, s",
-                   .y_label = "opening, mm",
-                   .series = {{"opening", film->time, film->opening_mm}}};
+    lab::Plot plot{
+        .name = "cuboid_opening",
+        .title = "Scene 1: opening of the incision",
+        .says = fmt::format(
+            "The widest distance between the two sides: it opens behind the knife, to {:.1f} mm at "
+            "the most, swings with the block, and is {:.1f} mm at the end.",
+            *std::max_element(film->opening_mm.begin(), film->opening_mm.end()), film->opening_mm.back()),
+        .x_label = "time, s",
+        .y_label = "opening, mm",
+        .series = {{"opening", film->time, film->opening_mm}}};
     return lab::Section{
         .title = "Scene 1: the cuboid",
         .text = {"scenes/cuboid.json: 8 x 6 x 6 cm, E = 5 kPa, nu = 0.35 as in the paper; size, density and "
@@ -192,8 +195,11 @@ Result<lab::Section> reproduce_liver(const std::string& scenes, bool quick) {
                        .series = {{"elements", film->time, film->elements}}};
     lab::Plot steps{.name = "liver_steps",
                     .title = "Scene 3: computing time of a step",
-                    .says = "Means over a frame, without the cuts themselves but with what follows them "
-                            "(packing of the copies, checks) and with whatever else the machine does.",
+                    .says = fmt::format(
+                        "Means over a frame, without the cuts themselves but with what follows them "
+                        "(packing of the copies, checks) and with whatever else the machine does: "
+                        "{:.0f} us at first, {:.0f} at the most.",
+                        film->step_us.front(), *std::max_element(film->step_us.begin(), film->step_us.end())),
                     .x_label = "time, s",
                     .y_label = "computing time of a step, us",
                     .series = {{"step", film->time, film->step_us}}};
