@@ -184,8 +184,8 @@ Table list_shallow(bool quick) {
     }
     table.says = fmt::format(
         "With a soft tip the shallowest incision opens {:.0f} % less than it should, the deepest {:.0f} %: "
-        "one of less than "
-        "two elements stays nearly shut, since a cut can bend only elements, and the front takes one.",
+        "one of less than two elements stays nearly shut, since a cut can bend only elements, and the front "
+        "takes one.",
         -off.front(), -off.back());
     return table;
 }
@@ -253,10 +253,9 @@ Table list_invariants() {
         }
     }
     table.says = fmt::format("By fractions a cut changes nothing by more than {:.1g} of it; where elements "
-                             "are cut again it may move a little "
-                             "weight between copies that move unlike (docs/cutting.md, Weights). Plain "
-                             "copies, the paper's rule, add mass, "
-                             "momentum and energy with every cut, here up to {:.0f} %.",
+                             "are cut again it may move a little weight between copies that move unlike "
+                             "(docs/cutting.md, Weights). Plain copies, the paper's rule, add mass, momentum "
+                             "and energy with every cut, here up to {:.0f} %.",
                              most[0], 100 * most[1]);
     return table;
 }

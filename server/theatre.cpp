@@ -234,8 +234,10 @@ void Theatre::publish(Clock::time_point now) {
     figures_.step_rate = static_cast<double>(simulation.steps() - step_at_status_) / passed;
     figures_.real_time_factor = pacer_.real_time_factor(simulation.time_step().used);
     figures_.clients = clients_.count();
-    figures_.cut_elements = count_split_elements(simulation.copies()) - split_at_start_;
-    if (clients_.count() > 0) { clients_.send_status(status_text(simulation, figures_)); }
+    if (clients_.count() > 0) {
+        figures_.cut_elements = count_split_elements(simulation.copies()) - split_at_start_;
+        clients_.send_status(status_text(simulation, figures_));
+    }
     figures_.tick_ms = figures_.cut_us = figures_.surface_us = 0;
     last_status_ = now;
     time_at_status_ = simulation.time();

@@ -21,16 +21,16 @@ bool is_due(const Cell& cell) {
     return std::int64_t{least} * cell.moved > std::ssize(cell.copies);
 }
 
+bool is_less_worn(const Cell& a, const Cell& b) {
+    return std::int64_t{a.moved} * std::ssize(b.copies) < std::int64_t{b.moved} * std::ssize(a.copies);
+}
+
 /// The row of the due cell with the largest share of copies moved, or -1.
-Index find_worn_cell(const Part& part) {
+Index find_worn_cell(const std::vector<Cell>& cells) {
     Index most = -1;
-    for (std::size_t at = 0; at < part.cells.size(); ++at) {
-        const Cell& cell = part.cells[at];
-        if (!is_due(cell)) { continue; }
-        const bool is_most =
-            most < 0 || std::int64_t{cell.moved} * std::ssize(part.cells[row(most)].copies) >
-                            std::int64_t{part.cells[row(most)].moved} * std::ssize(cell.copies);
-        if (is_most) { most = static_cast<Index>(at); }
+    for (Index at = 0; at < static_cast<Index>(cells.size()); ++at) {
+        if (!is_due(cells[row(at)])) { continue; }
+        if (most < 0 || is_less_worn(cells[row(most)], cells[row(at)])) { most = at; }
     }
     return most;
 }
@@ -76,7 +76,7 @@ void drop_empty_blocks(Part& part) {
 void repack(Packing& packing, const Elements& elements, const NodeArrays& nodes, Index part_row) {
     std::vector<Cell>& cells = packing.parts[row(part_row)].cells;
     std::for_each(cells.begin(), cells.end(), count_turn);
-    const Index cell = find_worn_cell(packing.parts[row(part_row)]);
+    const Index cell = find_worn_cell(cells);
     if (cell < 0) { return; }
     if (packing.parts[row(part_row)].cells[row(cell)].copies.size() > most_packed) {
         split_cell(packing, elements, nodes, part_row, cell);

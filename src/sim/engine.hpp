@@ -77,7 +77,7 @@ struct Work {
     double settling = 0; // by settle's resets of the velocity
 };
 
-/// The critical step of deformed copies. It costs fifty times a step's work, so copies take turns.
+/// The critical step of deformed copies. Of all of them it takes as long as eighty steps, so they take turns.
 struct LiveBound {
     double known = 0;                                       // s, the least of the last round and of this one
     double round = std::numeric_limits<double>::infinity(); // s, the least of this one so far
