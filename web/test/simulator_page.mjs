@@ -90,8 +90,8 @@ async function partAndProbe(page) {
   await page.waitForTimeout(500); // the view was just framed
   const ends = await ask(page, '[[0.03, 0.14, 0], [0.03, -0.14, 0]].map(resect.screenOf)');
   await stroke(page, ends[0], ends[1]);
+  await page.keyboard.press('4'); // the blade goes on
   await until(page, 'resect.status.pieces[1]?.volume > 1e-4');
-  await page.keyboard.press('4');
   await page.mouse.move(560, 400);
   await page.waitForSelector('#readout:not([hidden])', { timeout: patience });
   await until(page, `/von mises stress [\\d.]+ kPa/i.test(document.querySelector('#readout').innerText)`);

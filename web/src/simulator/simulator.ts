@@ -397,7 +397,7 @@ class Simulator {
     const began = performance.now();
     // A film has a frame only where something is drawn.
     if (this.pointer.tick() || this.film.isOn) this.isDirty = true;
-    this.tools[this.tool].tick?.();
+    for (const tool of Object.values(this.tools)) tool.tick?.(); // a line goes on when another tool is taken
     if (!this.isDirty) {
       this.lastDraw = 0;
       return;
